@@ -62,6 +62,9 @@ class Calibrate(harness.TestCase):
         rim = "x_m,y_m,z_m\n0.15,0.0861,0.9262\n-0.15,0.0861,0.9262\n0,0.04222,1.06965\n"
         (self.dir / "p.csv").write_text(rim)
         self.assert_true_place(self.calibrate(self.rec, "--points", "p.csv"), 0.001)
+        excel = rim.replace(",", ";").replace(".", ",").replace("x_m", "X [m]")
+        (self.dir / "excel.csv").write_bytes(excel.encode("utf-16"))
+        self.assert_true_place(self.calibrate(self.rec, "--points", "excel.csv"), 0.001)
         (self.dir / "same.csv").write_text(rim + "0.15,0.0861,0.9262\n")
         self.refused(FAILED, "calibrate", self.rec, "--points", "same.csv", says="points 1 and 4")
         (self.dir / "word.csv").write_text(rim + "a,b,c\n")

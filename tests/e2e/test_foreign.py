@@ -4,6 +4,7 @@ import json
 import shutil
 
 import harness
+import recordings
 from harness import FAILED, FAST, USAGE, foreign_scan
 from recordings import shared_recording
 
@@ -67,6 +68,16 @@ class Straight(harness.TestCase):
         self.assertEqual(json.loads(self.ok("info", "r", "--json").stdout)["frames"], 3)
         self.refused(USAGE, "capture", "--device", "replay:r?depth-unit=1mm", "-o", "q",
                      "--frames", "3", says="depth-unit")
+
+    def test_a_scan_says_what_cannot_be_as_reconstruct_does(self):
+        far = recordings.copy(shared_recording(), self.dir / "far")
+        facts = json.loads((far / "recording.json").read_text())
+        facts["sensors"][0]["depth_unit_m"] *= 100
+        (far / "recording.json").write_text(json.dumps(facts))
+        cause = self.refused(FAILED, "reconstruct", "far", "-o", "m.ply", *FAST).stderr.split("; ")[0]
+        self.assertIn("the unit is another one", cause)
+        self.refused(FAILED, "scan", "--device", "replay:far?speed=max", "--no-wait", "-o", "m.ply",
+                     "--recording", "again", *FAST, says=cause.split(": ", 1)[1].split(" (")[0])
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ import subprocess
 import harness
 from harness import FAILED, ROOT, USAGE, run
 
-COMMANDS = ["import", "info", "calibrate", "reconstruct", "evaluate", "render", "simulate", "demo",
+COMMANDS = ["import", "info", "calibrate", "reconstruct", "evaluate", "render", "export", "simulate", "demo",
             "batch", "reference"]
 
 

@@ -12,6 +12,7 @@ std::unique_ptr<Command> make_calibrate_command();
 std::unique_ptr<Command> make_reconstruct_command();
 std::unique_ptr<Command> make_evaluate_command();
 std::unique_ptr<Command> make_report_command();
+std::unique_ptr<Command> make_export_command();
 std::unique_ptr<Command> make_render_command();
 std::unique_ptr<Command> make_simulate_command();
 std::unique_ptr<Command> make_demo_command();

@@ -41,6 +41,7 @@ Result<CalibratedFrames> calibrate_frames(const FrameSequence& sequence, const s
 namespace {
 
 using workflow::PlacedRecording;
+using workflow::RecordingFindings;
 
 /// Whether the recordings have several passes to be fused into one mesh. Frames with poses of their
 /// own are fused as they are.
@@ -89,24 +90,6 @@ Result<> reconstruct_joined(const std::vector<PlacedRecording>& placed,
   run.seen_from.name = last.name;
   run.seen_from.T_mesh_table = last.T_object_table;
   return {};
-}
-
-using RecordingFindings = std::vector<std::vector<PlausibilityFinding>>;
-
-/// What cannot be in the data, or hardly, is why the work on them failed.
-Error with_cause(Error error, const RecordingFindings& findings) {
-  const bool of_data = error.code == ErrorCode::kMissingData ||
-                       error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kLibrary;
-  for (const Plausibility level : {Plausibility::kImplausible, Plausibility::kDoubtful}) {
-    for (const auto& of_recording : findings) {
-      for (const PlausibilityFinding& finding : of_recording) {
-        if (!of_data || finding.level != level) continue;
-        error.message = fmt::format("{} ({})", finding.text, error.message);
-        return error;
-      }
-    }
-  }
-  return error;
 }
 
 Result<> check_meshes(const ReconstructRun& run) {
@@ -164,7 +147,7 @@ Result<ReconstructRun> run_reconstruction(const std::vector<NamedSequence>& reco
     findings.push_back(std::move(found));
   }
   auto run = reconstruct_recordings(recordings, findings, request, context, write_meshes);
-  if (!run) return tl::unexpected<Error>(with_cause(std::move(run).error(), findings));
+  if (!run) return tl::unexpected<Error>(workflow::with_cause(std::move(run).error(), findings));
   return run;
 }
 

@@ -129,6 +129,21 @@ Result<> judge(const std::vector<PlacedRecording>& placed, const std::vector<Pas
 
 }  // namespace
 
+Error with_cause(Error error, const RecordingFindings& findings) {
+  const bool of_data = error.code == ErrorCode::kMissingData ||
+                       error.code == ErrorCode::kTooFewPoints || error.code == ErrorCode::kLibrary;
+  for (const Plausibility level : {Plausibility::kImplausible, Plausibility::kDoubtful}) {
+    for (const auto& of_recording : findings) {
+      for (const PlausibilityFinding& finding : of_recording) {
+        if (!of_data || finding.level != level) continue;
+        error.message = fmt::format("{} ({})", finding.text, error.message);
+        return error;
+      }
+    }
+  }
+  return error;
+}
+
 Result<PlacedRecording> place_recording(const NamedSequence& recording,
                                         const ReconstructRequest& request,
                                         const RunContext& context) {

@@ -16,6 +16,12 @@ struct PlacedRecording {
   std::vector<PlausibilityFinding> findings = {};  ///< see find_implausible()
 };
 
+/// Of each recording; see find_implausible().
+using RecordingFindings = std::vector<std::vector<PlausibilityFinding>>;
+
+/// The error of work on data, with what cannot be in them, or hardly, as its cause.
+Error with_cause(Error error, const RecordingFindings& findings);
+
 /// Chooses the calibration. Fails as with_turntable() and calibrate_frames().
 Result<PlacedRecording> place_recording(const NamedSequence& recording,
                                         const ReconstructRequest& request,

@@ -339,6 +339,43 @@ TEST(CloudPly, WriterOnAFullDiskLeavesNothing) {
   EXPECT_EQ(folder.count(), 0U);
 }
 
+TEST(CloudText, ReadsPointsAndColoursAsProgramsWriteThem) {
+  const TempFolder folder;
+  const auto read = [&](const char* name, const std::string& text) {
+    folder.put(name, text);
+    const auto file = read_cloud(folder / name);
+    EXPECT_TRUE(file) << file.error().text();
+    return file ? file->cloud : PointCloud();
+  };
+  const PointCloud plain = read("a.xyz", "1 2 3\n\n# a\n-1.5e1\t+2 3.25 \r\nnan nan nan\n");
+  EXPECT_THAT(plain.points, ElementsAre(Vec3f(1, 2, 3), Vec3f(-15, 2, 3.25F)));
+  const PointCloud named = read("a.asc", "//X Y Z R G B\n1 2 3 255 0 7\n4 5 6 0 0 1\n");
+  EXPECT_THAT(named.colors, ElementsAre(Rgb{255, 0, 7}, Rgb{0, 0, 1}));
+  const PointCloud counted = read("a.pts", "2\n1 2 3 -800 255 0 7\n4 5 6 -20 0 0 1\n");
+  EXPECT_EQ(counted.size(), 2U);
+  EXPECT_EQ(counted.colors[0], (Rgb{255, 0, 7}));
+  EXPECT_THAT(read("a.txt", "x;y;z\n1,5;2;3\n").points, ElementsAre(Vec3f(1.5F, 2, 3)));
+  EXPECT_THAT(read("a.txt", "x,y,z\n1.5,2,3\n").points, ElementsAre(Vec3f(1.5F, 2, 3)));
+  EXPECT_TRUE(read("a.xyz", "1 2 3 0 0 1\n1 2 3 0 1 0\n").colors.empty()) << "normals";
+  EXPECT_TRUE(read("a.xyz", "1 2 3 9 9 9\n1 2 3 0.5 1 0\n").colors.empty());
+  ASSERT_TRUE(write_cloud(folder / "c.ply", full_cloud(3)));
+  std::filesystem::rename(folder / "c.ply", folder / "c.txt");
+  EXPECT_EQ(read_cloud(folder / "c.txt")->cloud.size(), 3U);
+}
+
+TEST(CloudText, WhatIsNoPointIsNamed) {
+  const TempFolder folder;
+  const auto why = [&](const std::string& text) {
+    folder.put("a.xyz", text);
+    const auto file = read_cloud(folder / "a.xyz");
+    return file ? std::string("read") : file.error().text();
+  };
+  EXPECT_THAT(why("1 2 3\n1 2\n"), HasSubstr("line 2: this is not a point"));
+  EXPECT_THAT(why("1 2 3\n1 2 3x\n"), HasSubstr("line 2"));
+  EXPECT_THAT(why("1 2 3\n1 2 1e30\n"), HasSubstr("beyond"));
+  EXPECT_THAT(why("x y z\nx y z\n"), HasSubstr("line 2"));
+}
+
 TEST(Cloud, MissingFileIsNotFound) {
   EXPECT_EQ(read_cloud("/no/such.ply").error().code, ErrorCode::kNotFound);
 }

@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using testing::frame_of;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -88,6 +89,25 @@ TEST(DepthFolder, TakesAnglesFromATable) {
   EXPECT_THAT(refusal(folder.path(), options).message, HasSubstr("does not name a.png"));
 }
 
+TEST(DepthFolder, TakesPosesFromATable) {
+  const TempFolder folder;
+  for (const char* name : {"a.png", "b.png", "c.png"}) put_depth(folder, name, 700);
+  folder.put("poses.csv",
+             "file;TX [mm];ty [mm];tz [mm];qx;qy;qz;qw;time_s\n"
+             "b.png;1500,5;0;0;0;0;0;2;1\na.png;0;0;250;1;0;0;0;0\nc.png;;;;;;;;3\n");
+  ImportOptions options = with_depth_unit();
+  options.intrinsics = "585,585,1.5,1";
+  options.angles = (folder / "poses.csv").string();
+  const auto sequence = open(folder.path(), options);
+  EXPECT_NEAR(sequence->frames()[1].T_table_sensor->translation().x(), 1.5005, 1e-12);
+  EXPECT_NEAR(sequence->frames()[0].T_table_sensor->linear()(1, 1), -1.0, 1e-12);
+  EXPECT_EQ(sequence->frames()[2].status, FrameStatus::kDropped);
+  folder.put("poses.csv", "file,tx,ty,tz,qx,qy,qz\na.png,0,0,0,0,0,0\n");
+  EXPECT_THAT(refusal(folder.path(), options).message, HasSubstr("a pose needs the columns"));
+  folder.put("poses.csv", "file,tx,ty,tz,qx,qy,qz,qw\na.png,0,0,0,0,0,0,0\n");
+  EXPECT_THAT(refusal(folder.path(), options).message, HasSubstr("line 2"));
+}
+
 TEST(DepthFolder, OfStrayScannerIsNotRtabmaps) {
   const TempFolder folder;
   ASSERT_TRUE(fs::create_directory(folder / "depth"));
@@ -104,9 +124,120 @@ TEST(DepthFolder, OfStrayScannerIsNotRtabmaps) {
 
 TEST(DepthFolder, OfOtherFilesIsToldToConvertThem) {
   const TempFolder folder;
-  folder.put("depth_0.npy", "x");
+  folder.put("depth_0.tiff", "x");
   folder.put("views.json", "{}");
-  EXPECT_THAT(refusal(folder.path()).message, HasSubstr("write depth as 16-bit PNG"));
+  EXPECT_THAT(refusal(folder.path()).message, HasSubstr("write depth as 16-bit PNG or NPY"));
+}
+
+TEST(DepthFolder, TakesTheCalibrationsOfOpenCVRosAndOthers) {
+  const TempFolder folder;
+  put_depth(folder, "a.png", 700);
+  ImportOptions options = with_depth_unit();
+  options.intrinsics = (folder / "camera").string();
+  const auto camera = [&](const std::string& text) {
+    folder.put("camera", text);
+    return open(folder.path(), options)->header().sensors[0].intrinsics;
+  };
+  const CameraIntrinsics opencv = camera(
+      "%YAML:1.0\n---\nimage_width: 8\nimage_height: 6\ncamera_matrix: !!opencv-matrix\n"
+      "   rows: 3\n   cols: 3\n   dt: d\n   data: [ 80., 0., 4., 0.,\n       82., 3., 0., 0., 1. "
+      "]\n"
+      "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n"
+      "   data: [ 0.1, 0., 0., 0., 0.2 ]\n");
+  EXPECT_EQ(opencv.width, 4);
+  EXPECT_DOUBLE_EQ(opencv.fx, 40.0);  // 8 x 6 pixels became 4 x 3
+  EXPECT_DOUBLE_EQ(opencv.cy, 1.5);
+  EXPECT_EQ(opencv.distortion[4], 0.2);
+  EXPECT_EQ(camera("height: 3\nwidth: 4\ndistortion_model: plumb_bob\nD: []\n"
+                   "K: [40.0, 0.0, 2.0, 0.0, 41.0, 1.5, 0.0, 0.0, 1.0]\n")
+                .fy,
+            41.0);
+  EXPECT_EQ(camera(R"({"width": 4, "height": 3,
+                       "intrinsic_matrix": [40, 0, 0, 0, 41, 0, 2, 1.25, 1]})")
+                .cy,
+            1.25);
+  EXPECT_EQ(camera(R"({"camera_matrix": [[40, 0, 2], [0, 41, 1.25], [0, 0, 1]],
+                       "dist_coeffs": [[0.1, 0.2, 0, 0, 0]]})")
+                .distortion[1],
+            0.2);
+  EXPECT_EQ(camera(R"({"fx": 40, "fy": 41, "cx": 2, "cy": 1.5})").fx, 40.0);
+  const auto why = [&](const std::string& text) {
+    folder.put("camera", text);
+    return refusal(folder.path(), options).text();
+  };
+  EXPECT_THAT(why("camera_matrix:\n  data: [1, 2]\n"), HasSubstr("2 numbers, not 9"));
+  EXPECT_THAT(why("nothing"), HasSubstr("neither a 3x3 matrix nor a calibration"));
+  EXPECT_THAT(why(R"({"fx": 40, "fy": 41})"), HasSubstr("cx is missing"));
+  EXPECT_THAT(why("distortion_model: equidistant\nK: [1]\n"), HasSubstr("fisheye"));
+}
+
+/// An array as numpy.save() writes it.
+template <class T>
+std::string npy(std::string_view type, std::string_view shape, const std::vector<T>& values) {
+  std::string header =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, shape);
+  header.resize(117, ' ');
+  return std::string("\x93NUMPY\1\0\x76\0", 10) + header + '\n' +
+         std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+TEST(DepthFolder, TakesArraysOfFloatsInMetres) {
+  const TempFolder folder;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const char* name : {"10.npy", "9.npy"})
+    folder.put(name, npy<float>("<f4", "(1, 2, 3)", {0.5f, 1.00004f, nan, -1.0f, 7.0f, 0.00003f}));
+  put_color(folder, "9.png");
+  ImportOptions options;
+  options.intrinsics = "585,585,1,0.5";
+  const auto sequence = open(folder.path(), options);
+  ASSERT_EQ(sequence->frames().size(), 2u);
+  EXPECT_EQ(sequence->frames()[0].file, "9.npy");
+  EXPECT_EQ(sequence->header().sensors[0].depth_unit_m, 1e-4);
+  EXPECT_THAT(frame_of(*sequence, 0).depth.pixels, ElementsAre(5000, 10000, 0, 0, 0, 0));
+  options.depth_unit_m = 1e-3;
+  EXPECT_THAT(frame_of(*open(folder.path(), options), 0).depth.pixels,
+              ElementsAre(5, 10, 0, 0, 70, 0));
+}
+
+TEST(DepthFolder, TakesArraysOfIntegersPgmAndEightBits) {
+  ImportOptions options = with_depth_unit();
+  options.intrinsics = "585,585,1,0.5";
+  const auto pixels = [&](const char* name, const std::string& bytes) {
+    const TempFolder folder;
+    folder.put(name, bytes);
+    return frame_of(*open(folder.path(), options), 0).depth.pixels;
+  };
+  EXPECT_THAT(pixels("a.npy", npy<std::int32_t>("<i4", "(2, 3)", {70000, 700, -1, 1, 2, 3})),
+              ElementsAre(0, 700, 0, 1, 2, 3));
+  EXPECT_THAT(pixels("a.npy", npy<std::uint16_t>(">u2", "(1, 2, 2)", {0x0201, 0x0100, 0, 0}) + "x"),
+              ElementsAre(0x0102, 1, 0, 0));
+  EXPECT_THAT(pixels("a.pgm", std::string("P5\n# a\n2 2\n4095\n\1\2\0\1\0\0\3\0", 25)),
+              ElementsAre(0x0102, 1, 0, 0x0300));
+  const TempFolder folder;
+  ASSERT_TRUE(write_grey_png(folder / "a.png", Image<std::uint8_t>(2, 2, 200)));
+  const auto sequence = open(folder.path(), options);
+  EXPECT_EQ(frame_of(*sequence, 0).depth.at(1, 1), 200);
+  EXPECT_THAT(sequence->header().source, HasSubstr("8 bits"));
+}
+
+TEST(DepthFolder, DamagedArraysAreNamed) {
+  ImportOptions options = with_depth_unit();
+  options.intrinsics = "585,585,1,0.5";
+  const auto why = [&](const char* name, const std::string& bytes) {
+    const TempFolder folder;
+    folder.put(name, bytes);
+    return refusal(folder.path(), options).text();
+  };
+  const std::vector<std::uint16_t> four(4, 7);
+  EXPECT_THAT(why("a.npy", npy("<u2", "(60000, 600)", four)), HasSubstr("cannot hold 600 x 60000"));
+  EXPECT_THAT(why("a.npy", npy("<u2", "(70000, 70000)", four)), HasSubstr("at most"));
+  EXPECT_THAT(why("a.npy", npy("<u2", "(4,)", four)), HasSubstr("not one image"));
+  EXPECT_THAT(why("a.npy", npy("<c8", "(2, 2)", four)), HasSubstr("uint16 or float32"));
+  EXPECT_THAT(why("a.npy", npy("|O", "(2, 2)", four)), HasSubstr("plain numbers"));
+  EXPECT_THAT(why("a.npy", std::string("\x93NUMPY\2\0\xff\xff\xff\xff{}", 14)),
+              HasSubstr("cut off"));
+  EXPECT_THAT(why("a.pgm", "P5 2 2 255\nabcd"), HasSubstr("up to 255"));
+  EXPECT_THAT(why("a.pgm", "P5 2 # 2"), HasSubstr("header"));
 }
 
 TEST(FramePose, ReadsDepthColourPosesAndIntrinsics) {
@@ -372,6 +503,22 @@ TEST(JsonPng, ReadsAnglesAndTheAxis) {
               AllOf(HasSubstr("angle_rad_closed was taken"), HasSubstr("--platter-height")));
   EXPECT_TRUE(frame_of(*sequence, 0).color.empty());
   EXPECT_FALSE(frame_of(*sequence, 1).color.empty());
+}
+
+TEST(JsonPng, ImagesMayBeArraysInItsUnit) {
+  const TempFolder folder;
+  folder.put("views.json", R"({"intrinsics": {"width": 3, "height": 2, "fx": 80, "fy": 80,
+             "cx": 1, "cy": 0.5, "depth_unit_m": 0.001}, "angle_deg": [0, 45]})");
+  for (const char* name : {"depth_0.npy", "depth_1.npy"})
+    folder.put(name, npy<double>("<f8", "(2, 3)", {700.0, 0.0, 1.0, 2.0, 3.0, 4.04}));
+  ASSERT_TRUE(write_color_png(folder / "color_1.png", ColorImage(3, 2)));
+  const auto sequence = open(folder.path());
+  EXPECT_EQ(sequence->header().sensors[0].depth_unit_m, 1e-4);
+  const Frame frame = frame_of(*sequence, 1);
+  EXPECT_THAT(frame.depth.pixels, ElementsAre(7000, 0, 10, 20, 30, 40));
+  EXPECT_FALSE(frame.color.empty());
+  std::filesystem::remove(folder / "depth_1.npy");
+  EXPECT_THAT(refusal(folder.path()).text(), HasSubstr("depth_1.npy"));
 }
 
 TEST(JsonPng, PlatterHeightMovesTheCentreAlongTheAxis) {

@@ -229,7 +229,7 @@ TEST(CloudFolder, UnknownNamesOfColumnsAreToldTheKnownOnes) {
               HasSubstr("names Datei, Winkel [\xC2\xB0]; known are file and angle_deg"));
   folder.put("angles.csv", "file,angle [grad]\na.ply,0\n");
   EXPECT_THAT(open_foreign(folder.path(), with({{"point-unit", "m"}})).error().text(),
-              HasSubstr("unknown unit; known are deg and rad"));
+              HasSubstr("unknown unit; known are deg, rad"));
 }
 
 TEST(CloudFolder, StatedAxesAreTurnedToTheSensorsFrame) {
@@ -253,6 +253,26 @@ TEST(CloudFolder, StatedAxesAreTurnedToTheSensorsFrame) {
     EXPECT_THAT(
         open_foreign(folder.path(), with({{"point-unit", "mm"}, {"axes", wrong}})).error().text(),
         HasSubstr("where x, y and z point"));
+}
+
+TEST(CloudFolder, TextScansWithPosesLieWhereTheySay) {
+  const TempFolder folder;
+  folder.put("a.xyz", "x y z\n1 2 3\n");
+  folder.put("b.xyz", "x y z\n1 2 3\n");
+  folder.put("angles.csv", "file,tx,ty,tz,qx,qy,qz,qw\na.xyz,0,0,0,0,0,0,1\nb.xyz,5,0,0,0,0,1,0\n");
+  // The points lie in the world as the table says, whatever the axes of the scans are called.
+  for (const char* axes : {"", "rub", "flu"}) {
+    const auto sequence = open(folder.path(), with({{"point-unit", "m"}, {"axes", axes}}));
+    ASSERT_EQ(sequence->frames().size(), 2u);
+    const Frame frame = frame_of(*sequence, 1);
+    ASSERT_TRUE(frame.info.T_table_sensor);
+    EXPECT_LT((*frame.info.T_table_sensor * frame.points.points[0].cast<double>() - Vec3d(4, -2, 3))
+                  .norm(),
+              1e-6)
+        << axes;
+  }
+  EXPECT_THAT(refusal(folder.path(), with({{"point-unit", "m"}, {"axes", "ruf"}})).text(),
+              HasSubstr("left-handed"));
 }
 
 TEST(CloudFolder, TimesPassesAndSensorsAreKept) {

@@ -27,7 +27,7 @@ struct HullFace {
   Corners corners{};
   Corners beyond{};                        // faces across the edges from each corner to the next
   GridVector normal = GridVector::Zero();  // outwards
-  double length = 0.0;                     // of the normal
+  Vec3d unit = Vec3d::Zero();              // the normal's direction
   std::vector<std::uint32_t> outside;      // points, each at one face only
   bool removed = false;
 };
@@ -58,9 +58,10 @@ class Quickhull {
   Int128 volume(const HullFace& face, std::uint32_t i) const {
     return exact_dot(face.normal, grid_[i] - grid_[face.corners[0]]);
   }
-  /// In steps of the grid.
+  /// In steps of the grid, to a millionth of one: for which points are far enough outside, where
+  /// exactness is not needed and 128 bits take 2.6 times as long (a million points in a ball).
   double above(const HullFace& face, std::uint32_t i) const {
-    return double(volume(face, i)) / face.length;
+    return face.unit.dot((grid_[i] - grid_[face.corners[0]]).cast<double>());
   }
 
   template <class Measure>
@@ -114,7 +115,7 @@ class Quickhull {
     face.corners = corners;
     const GridVector origin = grid_[corners[0]];
     face.normal = (grid_[corners[1]] - origin).cross(grid_[corners[2]] - origin);
-    face.length = face.normal.cast<double>().norm();
+    face.unit = face.normal.cast<double>().normalized();
     return face;
   }
 

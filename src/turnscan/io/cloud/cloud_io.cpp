@@ -3,6 +3,7 @@
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/cloud/pcd_read.hpp>
+#include <turnscan/io/cloud/xyz_read.hpp>
 #include <turnscan/io/file/decode_file.hpp>
 #include <turnscan/io/file/file_frame.hpp>
 #include <turnscan/io/file/file_name.hpp>
@@ -97,20 +98,27 @@ Result<> write_job(const std::filesystem::path& path, const ply::PlyJob& job) {
   return write_file_atomically(path, [&job](FileSink& sink) { return ply::write_ply(sink, job); });
 }
 
-}  // namespace
-
-Result<CloudFile> decode_cloud(std::string_view bytes) {
-  if (!ply::looks_like_ply(bytes) && !pcd::looks_like_pcd(bytes))
-    return fail(ErrorCode::kUnsupported, "neither a PLY nor a PCD file");
-  auto file = ply::looks_like_ply(bytes) ? decode_ply(bytes) : pcd::parse_pcd(bytes);
+Result<CloudFile> checked(Result<CloudFile> file) {
   if (!file) return file;
   drop_points_that_are_not_finite(*file);
   TURNSCAN_TRY(check_distances(file->cloud.points));
   return file;
 }
 
+}  // namespace
+
+Result<CloudFile> decode_cloud(std::string_view bytes) {
+  if (!ply::looks_like_ply(bytes) && !pcd::looks_like_pcd(bytes))
+    return fail(ErrorCode::kUnsupported, "neither a PLY nor a PCD file");
+  return checked(ply::looks_like_ply(bytes) ? decode_ply(bytes) : pcd::parse_pcd(bytes));
+}
+
 Result<CloudFile> read_cloud(const std::filesystem::path& path) {
-  return file::decode_file(path, decode_cloud);
+  return file::decode_file(path, [&](std::string_view bytes) {
+    const bool by_content = ply::looks_like_ply(bytes) || pcd::looks_like_pcd(bytes);
+    return by_content || !xyz::is_xyz_name(path) ? decode_cloud(bytes)
+                                                 : checked(xyz::parse_xyz(bytes));
+  });
 }
 
 Result<> write_cloud(const std::filesystem::path& path, const PointCloud& cloud, UpAxis up) {

@@ -1,5 +1,5 @@
 #pragma once
-// Point clouds on disk: PLY (read and written) and PCD (read).
+// Point clouds on disk: PLY (read and written), PCD and text (read).
 
 #include <cstdint>
 #include <filesystem>
@@ -27,11 +27,11 @@ struct CloudFile {
 /// PLY: element vertex with x y z, and nx ny nz, red green blue, weight (or quality), frame if
 /// present; Stanford's range_grid with obj_info num_cols and num_rows. PCD: fields x y z, normal_x
 /// normal_y normal_z, rgb or rgba; HEIGHT > 1 is a grid; the position in VIEWPOINT.
-/// Points that are not finite are skipped, and their cells are -1. Other elements, properties and
-/// fields are ignored. Colours of floating-point type are in the range 0 to 1.
-/// Fails with kFormat (damaged; a count that the file's length cannot hold; an index out of range),
-/// kUnsupported (another kind of file) or as read_file. A cloud without points is not an error: a
-/// scanner may see nothing.
+/// Files named .xyz, .asc, .txt or .pts are text (xyz_read.hpp). Points that are not finite are
+/// skipped, and their cells are -1. Other elements, properties and fields are ignored. Colours of
+/// floating-point type are in the range 0 to 1. Fails with kFormat (damaged; a count that the
+/// file's length cannot hold; an index out of range), kUnsupported (another kind of file) or as
+/// read_file. A cloud without points is not an error: a scanner may see nothing.
 Result<CloudFile> read_cloud(const std::filesystem::path& path);
 Result<CloudFile> decode_cloud(std::string_view bytes);
 

@@ -73,6 +73,14 @@ Result<> write_depth_png(const std::filesystem::path& path, const DepthImage& im
   return write_encoded(path, encode_depth_png(image), durability);
 }
 
+Result<> write_grey_png(const std::filesystem::path& path, const Image<std::uint8_t>& image,
+                        Durability durability) {
+  require_pixels(image);
+  return write_encoded(
+      path, image::encode_png(image.pixels.data(), image.width, image.height, PngPixels::kGrey8),
+      durability);
+}
+
 Result<ColorImage> decode_color(std::string_view bytes) {
   if (image::looks_like_jpeg(bytes)) return image::decode_jpeg(bytes);
   if (!image::looks_like_png(bytes))

@@ -39,6 +39,10 @@ Result<ColorImage> decode_color(std::string_view bytes);
 Result<> read_frame_color(const std::filesystem::path& path, Frame& frame);
 Result<> decode_frame_color(std::string_view bytes, Frame& frame);
 
+/// 8-bit grey PNG. Throws std::invalid_argument as write_depth_png does.
+Result<> write_grey_png(const std::filesystem::path& path, const Image<std::uint8_t>& image,
+                        Durability durability = Durability::kSynced);
+
 /// Throw std::invalid_argument as write_depth_png does; quality is in [1, 100].
 Result<> write_color_png(const std::filesystem::path& path, const ColorImage& image,
                          Durability durability = Durability::kSynced);

@@ -53,6 +53,7 @@ void ask_for(png_structp png, PngPixels kind) {
     if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
     return;
   }
+  if (kind == PngPixels::kGrey8) return;
   png_set_palette_to_rgb(png);
   png_set_expand_gray_1_2_4_to_8(png);
   png_set_scale_16(png);
@@ -60,7 +61,9 @@ void ask_for(png_structp png, PngPixels kind) {
   png_set_gray_to_rgb(png);
 }
 
-std::size_t bytes_per_pixel(PngPixels kind) { return kind == PngPixels::kDepth16 ? 2 : 3; }
+std::size_t bytes_per_pixel(PngPixels kind) {
+  return kind == PngPixels::kDepth16 ? 2 : kind == PngPixels::kRgb8 ? 3 : 1;
+}
 
 bool decode_rows(Source* source, PngPixels kind, std::size_t row_bytes, png_bytepp rows,
                  Failure* failure) {
@@ -152,6 +155,7 @@ Result<> decode_png(std::string_view bytes, const PngInfo& info, PngPixels kind,
 
 Result<std::string> encode_png(const unsigned char* pixels, int width, int height, PngPixels kind) {
   const auto columns = static_cast<std::uint32_t>(width), rows = static_cast<std::uint32_t>(height);
+  if (kind == PngPixels::kGrey8) return encode_plain_grey(pixels, columns, rows);
   return kind == PngPixels::kDepth16 ? encode_plain_depth(pixels, columns, rows)
                                      : encode_rgb(pixels, columns, rows);
 }

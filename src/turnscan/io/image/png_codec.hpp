@@ -30,7 +30,8 @@ Result<PngInfo> read_png_info(std::string_view bytes);
 
 enum class PngPixels {
   kDepth16,  ///< one std::uint16_t in the machine's byte order
-  kRgb8      ///< three bytes
+  kRgb8,     ///< three bytes
+  kGrey8     ///< one byte
 };
 
 /// Decodes into width * height pixels at `pixels`. Fails with kFormat.

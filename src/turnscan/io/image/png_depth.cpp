@@ -153,7 +153,7 @@ std::string header_of(std::uint32_t width, std::uint32_t height, PlainPng kind) 
   put_big_endian(header, width);
   put_big_endian(header, height);
   header += kind == PlainPng::kGrey16 ? '\x10' : '\x08';
-  header += kind == PlainPng::kGrey16 ? '\0' : '\x02';
+  header += kind == PlainPng::kRgb8 ? '\x02' : '\0';
   return header.append("\0\0\0", 3);  // deflate, filter per row, not interlaced
 }
 
@@ -238,6 +238,17 @@ std::string encode_plain_depth(const unsigned char* pixels, std::uint32_t width,
   Scratch& scratch = scratch_of_this_thread();
   filter_up(pixels, width, height, scratch);
   return pack_png(scratch.filtered, width, height, PlainPng::kGrey16);
+}
+
+std::string encode_plain_grey(const unsigned char* pixels, std::uint32_t width,
+                              std::uint32_t height) {
+  std::vector<unsigned char> filtered;
+  filtered.reserve(height * (std::size_t(width) + 1));
+  for (std::uint32_t y = 0; y < height; ++y, pixels += width) {
+    filtered.push_back(kNone);
+    filtered.insert(filtered.end(), pixels, pixels + width);
+  }
+  return pack_png(filtered, width, height, PlainPng::kGrey8);
 }
 
 std::string pack_png(std::span<const unsigned char> filtered, std::uint32_t width,

@@ -35,9 +35,13 @@ bool undo_filter(int filter, unsigned char* row, const unsigned char* above, std
 std::string encode_plain_depth(const unsigned char* pixels, std::uint32_t width,
                                std::uint32_t height);
 
+/// @param pixels width * height bytes.
+std::string encode_plain_grey(const unsigned char* pixels, std::uint32_t width,
+                              std::uint32_t height);
+
 /// A PNG file from already filtered rows, each preceded by its filter type. A chunk must be shorter
 /// than 2^31 bytes, which the limits on image size ensure.
-enum class PlainPng { kGrey16, kRgb8 };
+enum class PlainPng { kGrey16, kRgb8, kGrey8 };
 std::string pack_png(std::span<const unsigned char> filtered, std::uint32_t width,
                      std::uint32_t height, PlainPng kind);
 

@@ -45,9 +45,11 @@ const std::vector<Importer>& table() {
         "range scans with a Stanford .conf (bmesh and mesh lines)"},
        open_stanford_conf,
        {"point-unit", "sensor-position", "sensor-direction", "world-up"}},
-      {{ImportFormat::kCloudFolder, "cloud-folder", "PLY or PCD scans with a table of angles"},
+      {{ImportFormat::kCloudFolder, "cloud-folder",
+        "PLY, PCD or text scans (.xyz, .asc, .txt, .pts) with a table of angles"},
        open_cloud_folder,
-       {"angles", "point-unit", "axes", "sensor-position", "sensor-direction", "clockwise"}},
+       {"angles", "point-unit", "axes", "sensor-position", "sensor-direction", "pose-direction",
+        "world-up", "clockwise"}},
       {{ImportFormat::kTumRgbd, "tum", "TUM RGB-D folder (depth.txt, rgb.txt, groundtruth.txt)"},
        open_tum,
        {"depth-unit", "intrinsics", "iai-kinect2", "world-up", "clockwise"}},
@@ -82,10 +84,17 @@ const std::vector<Importer>& table() {
         "ROS 1 bag, of a RealSense or with images of depth (.bag)"},
        open_rosbag,
        {"depth-unit", "intrinsics", "topic", "clockwise"}},
+      {{ImportFormat::kNerfstudio, "nerfstudio",
+        "nerfstudio's transforms.json with depth (also of Polycam and Record3D)"},
+       open_nerfstudio,
+       {"depth-unit", "device-poses", "world-up", "fps", "clockwise"}},
+      {{ImportFormat::kBop, "bop", "scene of the BOP benchmark (scene_camera.json, depth/)"},
+       open_bop,
+       {"depth-unit", "world-up"}},
       {{ImportFormat::kDepthFolder, "depth-folder",
-        "depth images (16-bit PNG, in the folder or its depth/) and the camera's intrinsics"},
+        "depth images (PNG, PGM or NPY, in the folder or its depth/) and the camera's intrinsics"},
        open_depth_folder,
-       {"depth-unit", "intrinsics", "fps", "angles", "clockwise"}}};
+       {"depth-unit", "intrinsics", "fps", "angles", "pose-direction", "world-up", "clockwise"}}};
   return importers;
 }
 
@@ -94,15 +103,22 @@ bool any_ends_with(const std::vector<std::string>& names, std::string_view endin
                      [&](const std::string& name) { return name.ends_with(ending); });
 }
 
+/// Of clouds. Text files (.txt) are read where a table names them.
+constexpr std::array<const char*, 5> kCloudEndings{".ply", ".pcd", ".xyz", ".asc", ".pts"};
+
 /// kAuto: not recognised.
 ImportFormat recognise_folder(const std::vector<std::string>& names, const ImportOptions& options) {
   const auto has = [&](std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  const bool clouds = any_ends_with(names, ".ply") || any_ends_with(names, ".pcd");
-  const bool images = has("depth") || any_ends_with(names, ".png");
+  const bool clouds = std::any_of(kCloudEndings.begin(), kCloudEndings.end(),
+                                  [&](const char* ending) { return any_ends_with(names, ending); });
+  const auto any = [&](const auto& fits) { return std::any_of(names.begin(), names.end(), fits); };
+  const bool images = has("depth") || any(is_depth_name);
   if (!options.angles.empty())
     return images && !clouds ? ImportFormat::kDepthFolder : ImportFormat::kCloudFolder;
+  if (has("scene_camera.json")) return ImportFormat::kBop;
+  if (has("transforms.json")) return ImportFormat::kNerfstudio;
   if (has("depth.txt")) return ImportFormat::kTumRgbd;
   if (has("depth") && (has("intrinsic.json") || has("camera_intrinsic.json")))
     return ImportFormat::kOpen3dRgbd;
@@ -111,11 +127,10 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
     return name.starts_with("frame-") && name.ends_with(".depth.png");
   });
   if (frame_pose) return ImportFormat::kFramePose;
-  const auto any = [&](const auto& fits) { return std::any_of(names.begin(), names.end(), fits); };
   if (any(is_scanner_app_frame)) return ImportFormat::kScannerApp;
   if (any(is_rtabmap_depth_folder) && (has("calib") || !has("depth")))
     return ImportFormat::kRtabmap;
-  if (any_ends_with(names, ".json") && any_ends_with(names, ".png")) return ImportFormat::kJsonPng;
+  if (any_ends_with(names, ".json") && any(is_depth_name)) return ImportFormat::kJsonPng;
   if (clouds) return ImportFormat::kCloudFolder;
   return images ? ImportFormat::kDepthFolder : ImportFormat::kAuto;
 }
@@ -158,9 +173,10 @@ Result<std::string> what_is_there(const fs::path& path) {
   }
   TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(path));
   if (names.empty()) return std::string("an empty folder");
-  for (const char* ending : {".npy", ".npz", ".tiff", ".tif", ".exr"})
+  for (const char* ending : {".npz", ".tiff", ".tif", ".exr"})
     if (any_ends_with(names, ending))
-      return fmt::format("a folder of {} files (write depth as 16-bit PNG to import it)", ending);
+      return fmt::format("a folder of {} files (write depth as 16-bit PNG or NPY to import it)",
+                         ending);
   return fmt::format("a folder of {} entries such as {}", names.size(), names.front());
 }
 
@@ -176,7 +192,8 @@ Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& option
   } else if (path.extension() == ".conf") {
     format = ImportFormat::kStanfordConf;
   } else if (path.extension() == ".json") {
-    format = ImportFormat::kJsonPng;
+    format = path.filename().string().starts_with("transforms") ? ImportFormat::kNerfstudio
+                                                                : ImportFormat::kJsonPng;
   } else {
     format = recognise_file(path);
   }
@@ -244,15 +261,16 @@ Result<> ImportOptions::check() const {
 
 OptionTable describe(ImportOptions& o) {
   OptionTable table;
-  table.choice(
-      "format", o.format,
-      {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png", "matroska",
-       "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap", "rosbag", "depth-folder"},
-      "Layout of the data set; auto recognises it by its files");
+  table.choice("format", o.format,
+               {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png",
+                "matroska", "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap",
+                "rosbag", "nerfstudio", "bop", "depth-folder"},
+               "Layout of the data set; auto recognises it by its files");
   table.text("topic", o.topic, "Topic of a ROS bag's depth images, where several hold depth");
   table.text(
       "angles", o.angles,
-      "Table of a folder of scans or images, with the columns file,angle_deg or file,time_s");
+      "Table of a folder of scans or images, with the columns file,angle_deg or file,time_s, or "
+      "of poses: file,tx,ty,tz,qx,qy,qz,qw");
   table.number("depth-unit", o.depth_unit_m, Quantity::kLength, {1e-7, 1.0},
                "Length of one step of the depth images; auto takes it from the data set");
   table.choice("point-unit", o.point_unit, {"auto", "m", "mm", "cm", "um", "in"},
@@ -261,8 +279,10 @@ OptionTable describe(ImportOptions& o) {
       "axes", o.axes,
       "Where x, y and z of scans point, seen by the scanner, e.g. rdf (right, down, forward: "
       "PCL, Open3D, ROS), rub (OpenGL), ruf (Unity); found where they are right-handed");
-  table.text("intrinsics", o.intrinsics,
-             "Camera as fx,fy,cx,cy in pixels, or a text file with its 3x3 matrix");
+  table.text(
+      "intrinsics", o.intrinsics,
+      "Camera as fx,fy,cx,cy in pixels, or a file with its 3x3 matrix or a calibration of OpenCV "
+      "or ROS (YAML, JSON)");
   table.text("iai-kinect2", o.iai_kinect2,
              "Folder with a Kinect v2's calibration in the layout of iai_kinect2: cameras and "
              "depth offset are taken from there");

@@ -29,6 +29,8 @@ enum class ImportFormat {
   kScannerApp,
   kRtabmap,
   kRosbag,
+  kNerfstudio,
+  kBop,
   kDepthFolder
 };
 enum class LengthUnit { kAuto, kMetre, kMillimetre, kCentimetre, kMicrometre, kInch };
@@ -45,10 +47,10 @@ struct ImportOptions {
   std::optional<double> depth_unit_m;         ///< per step of the depth images
   LengthUnit point_unit = LengthUnit::kAuto;  ///< of scans
   std::string axes;                           ///< of scans, such as "rdf"; empty: found
-  std::string intrinsics;                     ///< "fx,fy,cx,cy" or a file with a 3x3 matrix
-  std::string iai_kinect2;                    ///< folder of a calibration, see iai_kinect2.hpp
-  std::string sensor_position;                ///< of scans: "x,y,z" with units
-  std::string sensor_direction;               ///< of scans: "x,y,z" from the surface to the sensor
+  std::string intrinsics;        ///< "fx,fy,cx,cy" or a file, see text::parse_camera_file()
+  std::string iai_kinect2;       ///< folder of a calibration, see iai_kinect2.hpp
+  std::string sensor_position;   ///< of scans: "x,y,z" with units
+  std::string sensor_direction;  ///< of scans: "x,y,z" from the surface to the sensor
   PoseDirection pose_direction = PoseDirection::kAuto;
   DevicePoses device_poses = DevicePoses::kAuto;
   Confidence min_confidence = Confidence::kAuto;  ///< returns with less confidence are dropped

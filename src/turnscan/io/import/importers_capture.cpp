@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <turnscan/io/image/depth_file.hpp>
 #include <turnscan/io/import/importers_capture.hpp>
 
 namespace turnscan::importers {
@@ -141,7 +142,7 @@ DepthImage depth_of_floats(std::string_view bytes, int width, int height) {
   for (std::size_t i = 0; i < depth.pixels.size(); ++i) {
     float metres = 0.0f;
     std::memcpy(&metres, bytes.data() + 4 * i, 4);
-    const double steps = double(metres) / kFloatDepthUnit;
+    const double steps = double(metres) / kFloatDepthStep_m;
     // Also false for NaN.
     if (steps >= 0.5 && steps < 65534.5) depth.pixels[i] = std::uint16_t(steps + 0.5);
   }

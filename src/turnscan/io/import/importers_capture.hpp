@@ -32,7 +32,6 @@ std::uint8_t least_confidence(const ImportOptions& options);
 /// Converts depth from floats in metres to steps of 0.1 mm; values that are not finite, not
 /// positive or beyond 6.55 m become no return. bytes: width * height little-endian floats.
 DepthImage depth_of_floats(std::string_view bytes, int width, int height);
-inline constexpr double kFloatDepthUnit = 1e-4;
 
 /// Note for every recording of Apple's LiDAR (by the author of Record3D, its issue 43).
 inline constexpr const char* kLidarNote =

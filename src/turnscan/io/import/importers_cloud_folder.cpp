@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/file/existence.hpp>
+#include <turnscan/io/import/importers_capture.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 
 namespace turnscan::importers {
@@ -23,14 +24,23 @@ Result<fs::path> find_table(const fs::path& folder, const ImportOptions& options
 }
 
 Result<std::vector<ForeignFrame>> frames_of(const fs::path& path, const fs::path& folder,
-                                            bool clockwise) {
+                                            const ImportOptions& options) {
+  TURNSCAN_ASSIGN(const Eigen::Matrix3d axes, stated_axes(options));
   TURNSCAN_ASSIGN(const std::vector<text::AngleRow> rows, read_angle_table(path));
   std::vector<ForeignFrame> frames;
   for (const text::AngleRow& row : rows) {
     ForeignFrame& frame = frames.emplace_back();
     FrameInfo& info = frame.info;
-    if (row.angle_rad) info.angle_rad = clockwise ? -*row.angle_rad : *row.angle_rad;
+    if (row.angle_rad) info.angle_rad = options.clockwise ? -*row.angle_rad : *row.angle_rad;
     if (row.time_s) info.time_s = *row.time_s;
+    if (row.T_world_scan) {
+      if (axes.determinant() < 0.0)
+        return fail_at(path.string(), ErrorCode::kUnsupported,
+                       "poses of scans with left-handed axes are not read; leave their columns "
+                       "out, or --axes");
+      TURNSCAN_ASSIGN(info.T_table_sensor, placed_pose(*row.T_world_scan, options));
+      *info.T_table_sensor = *info.T_table_sensor * Pose(Eigen::Quaterniond(axes.transpose()));
+    }
     info.pass = row.pass;
     info.sensor = row.sensor;
     info.file = row.file;
@@ -96,11 +106,12 @@ Result<> turn_header(const ImportOptions& options, SequenceHeader& header) {
 
 OpenResult open_cloud_folder(const fs::path& folder, const ImportOptions& options) {
   TURNSCAN_ASSIGN(const fs::path table, find_table(folder, options));
-  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, frames_of(table, folder, options.clockwise));
+  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, frames_of(table, folder, options));
   TURNSCAN_ASSIGN(const double metres_per_unit, point_scale(options, std::nullopt));
   put_in_order(frames);
   SequenceHeader header;
   header.source = fmt::format("scans of {} with {}", display_name(folder), display_name(table));
+  drop_without_pose(frames, header);
   SensorInfo scanner;
   scanner.kind = SensorKind::kPointScanner;
   TURNSCAN_ASSIGN(scanner.viewpoint, viewpoint_of(frames, options, metres_per_unit, header));

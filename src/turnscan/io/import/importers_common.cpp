@@ -7,6 +7,7 @@
 #include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/import/iai_kinect2.hpp>
 #include <turnscan/io/import/importers_common.hpp>
+#include <turnscan/io/text/camera_file.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 #include <utility>
 
@@ -153,11 +154,18 @@ Result<std::optional<CameraIntrinsics>> iai_kinect2_intrinsics(const ImportOptio
 
 Result<CameraIntrinsics> intrinsics_from_file(const fs::path& path) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
-  const auto m = text::parse_numbers(text, 9);
-  if (!m)
-    return fail_at(path.string(), ErrorCode::kFormat, "this is not a 3x3 camera matrix: {}",
-                   m.error().message);
-  return camera_of((*m)[0], (*m)[4], (*m)[2], (*m)[5]);
+  auto camera = text::parse_camera_file(text);
+  if (!camera) return at_path(path, std::move(camera).error());
+  return camera;
+}
+
+Result<std::optional<CameraIntrinsics>> intrinsics_beside(const fs::path& folder) {
+  for (const char* name :
+       {"camera_matrix.csv", "cam_K.txt", "camera-intrinsics.txt", "intrinsics.txt"}) {
+    TURNSCAN_ASSIGN(const bool there, file::is_there(folder / name));
+    if (there) return intrinsics_from_file(folder / name);
+  }
+  return std::optional<CameraIntrinsics>();
 }
 
 Result<CameraIntrinsics> stated_intrinsics(const ImportOptions& options) {
@@ -166,7 +174,7 @@ Result<CameraIntrinsics> stated_intrinsics(const ImportOptions& options) {
   const auto there = file::is_there(options.intrinsics);
   if (!there || *there) return intrinsics_from_file(options.intrinsics);
   return fail(ErrorCode::kInvalidOption,
-              "intrinsics = {} is neither fx,fy,cx,cy in pixels nor a file with a 3x3 matrix",
+              "intrinsics = {} is neither fx,fy,cx,cy in pixels nor a file with a camera's matrix",
               options.intrinsics);
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/core/run_context.hpp>
+#include <turnscan/io/image/depth_file.hpp>
 #include <turnscan/io/import/importers.hpp>
 #include <turnscan/io/text/angle_table.hpp>
 #include <vector>
@@ -29,6 +30,7 @@ class ForeignSequence : public FrameSequence {
   const SequenceHeader& header() const override { return header_; }
   const std::vector<FrameInfo>& frames() const override { return frames_; }
   Result<Frame> read(std::size_t position) const override;
+  void set_depth_files(const DepthFileOptions& options) { depth_files_ = options; }
 
  private:
   struct Files {
@@ -38,6 +40,7 @@ class ForeignSequence : public FrameSequence {
   std::vector<FrameInfo> frames_;
   std::vector<Files> files_;
   Eigen::Matrix3d scan_to_sensor_;
+  DepthFileOptions depth_files_;
 };
 
 using OpenResult = Result<std::unique_ptr<FrameSequence>>;
@@ -58,8 +61,12 @@ OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& opt
                      const RunContext& context);
 OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_depth_folder(const std::filesystem::path& folder, const ImportOptions& options);
+OpenResult open_nerfstudio(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_bop(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions& options);
 
+/// Whether a file of this name may be a depth image: PNG, PGM or NPY.
+bool is_depth_name(std::string_view name);
 /// "frame_00012.json", as 3D Scanner App names the metadata of a frame.
 bool is_scanner_app_frame(std::string_view name);
 /// "depth" or "NAME_depth": the folder in which RTAB-Map's export stores depth images.
@@ -104,8 +111,12 @@ Result<CameraIntrinsics> stated_intrinsics(const ImportOptions& options);
 /// Intrinsics of the depth camera in options.iai_kinect2, if that folder is given and contains
 /// them.
 Result<std::optional<CameraIntrinsics>> iai_kinect2_intrinsics(const ImportOptions& options);
-/// Intrinsics from the 3x3 matrix in a text file, without the image size.
+/// Intrinsics from a file of text::parse_camera_file(); the image size is 0 if it is not stated.
 Result<CameraIntrinsics> intrinsics_from_file(const std::filesystem::path& path);
+
+/// Intrinsics from the first file there is of those that usually hold a camera's 3x3 matrix beside
+/// images; nullopt: there is none.
+Result<std::optional<CameraIntrinsics>> intrinsics_beside(const std::filesystem::path& folder);
 
 /// From options.sensor_position or options.sensor_direction, if either is given.
 Result<std::optional<Viewpoint>> stated_viewpoint(const ImportOptions& options);

@@ -7,8 +7,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <turnscan/core/units.hpp>
 #include <turnscan/io/file/existence.hpp>
 #include <turnscan/io/image/image_io.hpp>
+#include <turnscan/io/import/importers_capture.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 
 namespace turnscan::importers {
@@ -17,12 +19,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<const char*, 4> kMatrixFiles{"camera_matrix.csv", "cam_K.txt",
-                                                  "camera-intrinsics.txt", "intrinsics.txt"};
 /// A principal point farther than this share of the image from its middle belongs to an image of
 /// another size.
 constexpr double kOffMiddle = 0.25;
 constexpr double kSameShape = 0.1;
+/// The most exact first.
+constexpr std::array<const char*, 3> kDepthEndings{".npy", ".pgm", ".png"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -49,6 +51,17 @@ bool precedes(std::string_view a, std::string_view b) {
   return a.size() < b.size();
 }
 
+/// Of arrays beside their pictures, or depth beside a few other files, the most frequent kind.
+void keep_one_kind(std::vector<std::string>& names) {
+  const auto count = [&](const char* ending) {
+    return std::count_if(names.begin(), names.end(),
+                         [&](const std::string& name) { return name.ends_with(ending); });
+  };
+  const auto kind = std::max_element(kDepthEndings.begin(), kDepthEndings.end(),
+                                     [&](auto a, auto b) { return count(a) < count(b); });
+  std::erase_if(names, [&](const std::string& name) { return !name.ends_with(*kind); });
+}
+
 struct DepthFolder {
   fs::path images;
   std::vector<std::string> names;  ///< in order
@@ -60,16 +73,17 @@ Result<DepthFolder> depth_images_in(const fs::path& folder) {
   DepthFolder out;
   out.images = fs::is_directory(folder / "depth", error) ? folder / "depth" : folder;
   TURNSCAN_ASSIGN(out.names, names_in(out.images));
-  std::erase_if(out.names, [](const std::string& name) { return !name.ends_with(".png"); });
+  std::erase_if(out.names, [](const std::string& name) { return !is_depth_name(name); });
   const auto of_depth = [](const std::string& name) {
     return name.find("depth") != std::string::npos || name.find("Depth") != std::string::npos;
   };
   if (std::any_of(out.names.begin(), out.names.end(), of_depth))
     std::erase_if(out.names, [&](const std::string& name) { return !of_depth(name); });
+  keep_one_kind(out.names);
   std::stable_sort(out.names.begin(), out.names.end(), precedes);
   if (out.names.empty())
     return fail_at(out.images.string(), ErrorCode::kTooFewPoints,
-                   "there are no depth images (16-bit PNG)");
+                   "there are no depth images (PNG, PGM or NPY)");
   return out;
 }
 
@@ -85,7 +99,7 @@ Result<fs::path> color_beside(const fs::path& folder, const std::string& name) {
   return fs::path();
 }
 
-Result<> put_angles(const fs::path& path, bool clockwise, const fs::path& folder,
+Result<> put_angles(const fs::path& path, const ImportOptions& options, const fs::path& folder,
                     std::vector<ForeignFrame>& frames) {
   TURNSCAN_ASSIGN(const std::vector<text::AngleRow> rows, read_angle_table(path));
   std::map<std::string, const text::AngleRow*> of_name;
@@ -95,50 +109,79 @@ Result<> put_angles(const fs::path& path, bool clockwise, const fs::path& folder
     if (row == of_name.end())
       return fail_at(path.string(), ErrorCode::kMissingData, "the table does not name {}",
                      frame.data.lexically_relative(folder).string());
-    const auto& [line, file, angle_rad, time_s, pass, sensor] = *row->second;
-    if (angle_rad) frame.info.angle_rad = clockwise ? -*angle_rad : *angle_rad;
-    if (time_s) frame.info.time_s = *time_s;
-    frame.info.pass = pass;
+    const text::AngleRow& known = *row->second;
+    if (known.angle_rad)
+      frame.info.angle_rad = options.clockwise ? -*known.angle_rad : *known.angle_rad;
+    if (known.time_s) frame.info.time_s = *known.time_s;
+    if (known.T_world_scan) {
+      TURNSCAN_ASSIGN(frame.info.T_table_sensor, placed_pose(*known.T_world_scan, options));
+    }
+    frame.info.pass = known.pass;
   }
   return {};
 }
 
-Result<CameraIntrinsics> matrix_beside(const fs::path& folder) {
-  for (const char* name : kMatrixFiles) {
-    TURNSCAN_ASSIGN(const bool there, file::is_there(folder / name));
-    if (there) return intrinsics_from_file(folder / name);
-  }
+Result<CameraIntrinsics> required_intrinsics(const fs::path& folder) {
+  TURNSCAN_ASSIGN(const std::optional<CameraIntrinsics> beside, intrinsics_beside(folder));
+  if (beside) return *beside;
   return fail_at(folder.string(), ErrorCode::kMissingData,
                  "the depth images do not say the intrinsics of their camera; state them: "
                  "--intrinsics fx,fy,cx,cy");
 }
 
 /// Intrinsics of a larger or smaller image of the same view are scaled to the depth image.
+/// Their size is stated, or told by the principal point.
 void fit_to_image(const DepthImage& image, CameraIntrinsics& camera, SequenceHeader& header) {
-  const double across = 2.0 * camera.cx / image.width, along = 2.0 * camera.cy / image.height;
-  if (std::abs(across - 1.0) < 2.0 * kOffMiddle || !(camera.cx > 0.0) ||
+  const bool stated = camera.width > 0;
+  const double width = stated ? camera.width : 2.0 * camera.cx;
+  const double height = stated ? camera.height : 2.0 * camera.cy;
+  const double across = width / image.width, along = height / image.height;
+  if (std::abs(across - 1.0) < (stated ? 1e-9 : 2.0 * kOffMiddle) || !(width > 0.0) ||
       std::abs(across / along - 1.0) > kSameShape)
     return;
-  add_note(header,
-           fmt::format("the intrinsics are those of images of about {:.0f} x {:.0f} pixels: "
-                       "they were scaled to depth's {} x {}",
-                       2.0 * camera.cx, 2.0 * camera.cy, image.width, image.height));
+  add_note(header, fmt::format("the intrinsics are those of images of {}{:.0f} x {:.0f} pixels: "
+                               "they were scaled to depth's {} x {}",
+                               stated ? "" : "about ", width, height, image.width, image.height));
   for (double* value : {&camera.fx, &camera.cx}) *value /= across;
   for (double* value : {&camera.fy, &camera.cy}) *value /= along;
 }
 
+void note_depth_files(const DepthFile& first, const DepthFileOptions& files,
+                      SequenceHeader& header) {
+  if (first.floats)
+    add_note(header, fmt::format("depth was rounded to steps of 0.1 mm from numbers in {}{}",
+                                 format_quantity(files.float_unit_m, Quantity::kLength),
+                                 files.float_unit_m == 1.0 ? ", as is usual" : ""));
+  if (first.eight_bits)
+    add_note(header,
+             "the depth images have 8 bits: they are coarse at best, and may be pictures of depth "
+             "rather than depth");
+}
+
 }  // namespace
+
+bool is_depth_name(std::string_view name) {
+  return std::any_of(kDepthEndings.begin(), kDepthEndings.end(),
+                     [&](const char* ending) { return name.ends_with(ending); });
+}
 
 OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& options) {
   TURNSCAN_ASSIGN(const DepthFolder depth, depth_images_in(folder));
   SequenceHeader header;
   header.source = fmt::format("depth images of {}", display_name(folder));
   SensorInfo sensor;
-  TURNSCAN_ASSIGN(sensor.intrinsics,
-                  options.intrinsics.empty() ? matrix_beside(folder) : stated_intrinsics(options));
+  TURNSCAN_ASSIGN(sensor.intrinsics, options.intrinsics.empty() ? required_intrinsics(folder)
+                                                                : stated_intrinsics(options));
   TURNSCAN_ASSIGN(const bool stray, file::is_there(folder / "odometry.csv"));
+  TURNSCAN_ASSIGN(const DepthFile first,
+                  read_depth_file(depth.images / depth.names.front(), {1.0, true}));
+  DepthFileOptions files{options.depth_unit_m.value_or(1.0), true};
   TURNSCAN_ASSIGN(sensor.depth_unit_m,
-                  depth_scale(options, stray ? std::optional(1e-3) : std::nullopt));
+                  depth_scale(options, stray          ? std::optional(1e-3)
+                                       : first.floats ? std::optional(kFloatDepthStep_m)
+                                                      : std::nullopt));
+  if (first.floats) sensor.depth_unit_m = kFloatDepthStep_m;
+  note_depth_files(first, files, header);
   std::vector<ForeignFrame> frames;
   for (const std::string& name : depth.names) {
     ForeignFrame& frame = frames.emplace_back();
@@ -148,18 +191,21 @@ OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& option
     frame.info.file = frame.data.lexically_relative(folder).string();
     TURNSCAN_ASSIGN(frame.color, color_beside(folder, name));
   }
-  if (!options.angles.empty())
-    TURNSCAN_TRY(put_angles(options.angles, options.clockwise, folder, frames));
-  TURNSCAN_ASSIGN(const DepthImage first, read_depth_png(frames.front().data));
-  fit_to_image(first, sensor.intrinsics, header);
+  if (!options.angles.empty()) TURNSCAN_TRY(put_angles(options.angles, options, folder, frames));
+  fit_to_image(first.image, sensor.intrinsics, header);
+  sensor.intrinsics.width = first.image.width;
+  sensor.intrinsics.height = first.image.height;
   header.sensors.push_back(sensor);
+  drop_without_pose(frames, header);
   if (!options.fps && options.angles.empty())
     add_note(
         header,
         "the images say neither times nor angles: state --fps or --angles where they are known");
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
-  return std::make_unique<ForeignSequence>(std::move(header), frames);
+  auto out = std::make_unique<ForeignSequence>(std::move(header), frames);
+  out->set_depth_files(files);
+  return out;
 }
 
 }  // namespace turnscan::importers

@@ -10,6 +10,7 @@
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/text/json_fields.hpp>
 #include <turnscan/io/text/text_fields.hpp>
+#include <utility>
 
 namespace turnscan::importers {
 
@@ -217,19 +218,39 @@ Result<bool> parse_turntable(const text::JsonObject& root, Views& views, Sequenc
   return height.has_value();
 }
 
-/// "color_007.png" for "depth_007.png"; for other names by the view's position.
+/// "color_007.png" for "depth_007.png" or "depth_007.npy"; for other names by the view's position.
 std::string color_beside(const std::string& depth, std::size_t view) {
-  if (depth.starts_with(kDepth)) return "color" + depth.substr(kDepth.size());
+  if (depth.starts_with(kDepth))
+    return fs::path("color" + depth.substr(kDepth.size())).replace_extension(".png").string();
   return fmt::format("color_{}.png", view);
 }
 
+/// Of the images depth_N, by that of the first.
+Result<std::string> ending_of_images(const fs::path& folder) {
+  for (const char* ending : {"npy", "pgm"}) {
+    TURNSCAN_ASSIGN(const bool there, file::is_there(folder / fmt::format("depth_0.{}", ending)));
+    if (there) return std::string(ending);
+  }
+  return std::string("png");
+}
+
+/// The stated unit is that of numbers in the first file, too.
+Result<DepthFileOptions> float_files(const std::vector<ForeignFrame>& frames, SensorInfo& sensor) {
+  DepthFileOptions out;
+  if (frames.empty() || frames.front().data.extension() != ".npy") return out;
+  TURNSCAN_ASSIGN(const DepthFile first, read_depth_file(frames.front().data));
+  if (first.floats) out.float_unit_m = std::exchange(sensor.depth_unit_m, kFloatDepthStep_m);
+  return out;
+}
+
 Result<std::vector<ForeignFrame>> list_frames(const Views& views, const fs::path& folder) {
+  TURNSCAN_ASSIGN(const std::string ending, ending_of_images(folder));
   std::vector<ForeignFrame> frames;
   for (std::size_t i = 0; i < views.count; ++i) {
     ForeignFrame frame;
     frame.info.index = static_cast<std::uint32_t>(i);
     frame.info.file =
-        views.depth_files.empty() ? fmt::format("depth_{}.png", i) : views.depth_files[i];
+        views.depth_files.empty() ? fmt::format("depth_{}.{}", i, ending) : views.depth_files[i];
     TURNSCAN_ASSIGN(frame.data, existing_file(folder, frame.info.file, "the JSON file"));
     if (!views.color_files.empty()) {
       TURNSCAN_ASSIGN(frame.color, existing_file(folder, views.color_files[i], "the JSON file"));
@@ -276,9 +297,12 @@ OpenResult open_json_png(const fs::path& path, const ImportOptions& options) {
   TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames,
                   list_frames(description->views, file.parent_path()));
   TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));
+  TURNSCAN_ASSIGN(const DepthFileOptions files, float_files(frames, header.sensors.front()));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, description->on_platter, header));
-  return std::make_unique<ForeignSequence>(std::move(header), frames);
+  auto out = std::make_unique<ForeignSequence>(std::move(header), frames);
+  out->set_depth_files(files);
+  return out;
 }
 
 }  // namespace turnscan::importers

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <map>
 #include <turnscan/core/version.hpp>
+#include <turnscan/io/image/depth_file.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/import/importers_capture.hpp>
 #include <turnscan/io/lz4/lz4.hpp>
@@ -193,7 +194,7 @@ Result<> describe_sensor(const R3dFile& data, const record3d::Metadata& metadata
   SensorInfo sensor;
   sensor.intrinsics =
       from_corner_coordinates(metadata.camera, metadata.depth_width, metadata.depth_height);
-  sensor.depth_unit_m = kFloatDepthUnit;
+  sensor.depth_unit_m = kFloatDepthStep_m;
   const auto colored = std::find_if(data.frames.begin(), data.frames.end(),
                                     [](const R3dFrame& f) { return f.color.has_value(); });
   if (colored != data.frames.end()) {

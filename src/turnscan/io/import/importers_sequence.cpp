@@ -12,10 +12,11 @@ namespace {
 
 /// Images of other programs mark missing depth with 0 or 65535; only turnscan's own crop writes
 /// 65535 for "a return, but outside".
-Result<DepthImage> read_foreign_depth(const std::filesystem::path& path) {
-  TURNSCAN_ASSIGN(DepthImage image, read_depth_png(path));
-  std::replace(image.pixels.begin(), image.pixels.end(), kOutsideCrop, kNoReturn);
-  return image;
+Result<DepthImage> read_foreign_depth(const std::filesystem::path& path,
+                                      const DepthFileOptions& options) {
+  TURNSCAN_ASSIGN(DepthFile file, read_depth_file(path, options));
+  std::replace(file.image.pixels.begin(), file.image.pixels.end(), kOutsideCrop, kNoReturn);
+  return std::move(file.image);
 }
 
 Result<> read_scan(const std::filesystem::path& path, const Eigen::Matrix3d& scan_to_sensor,
@@ -71,7 +72,7 @@ Result<Frame> ForeignSequence::read(std::size_t position) const {
     TURNSCAN_TRY(read_scan(files.data, scan_to_sensor_, frame));
     return frame;
   }
-  TURNSCAN_ASSIGN(frame.depth, read_foreign_depth(files.data));
+  TURNSCAN_ASSIGN(frame.depth, read_foreign_depth(files.data, depth_files_));
   TURNSCAN_TRY(check_size(frame.depth, sensor.intrinsics, files.data));
   if (files.color.empty()) return frame;
   TURNSCAN_TRY(read_frame_color(files.color, frame));

@@ -119,6 +119,8 @@ Result<CameraIntrinsics> intrinsics_of(const fs::path& folder, const ImportOptio
   if (!options.intrinsics.empty()) return stated_intrinsics(options);
   TURNSCAN_ASSIGN(const auto kinect, iai_kinect2_intrinsics(options));
   if (kinect) return *kinect;
+  TURNSCAN_ASSIGN(const auto beside, intrinsics_beside(folder));
+  if (beside) return *beside;
   const std::string name = display_name(folder);
   for (const char* known : {"freiburg1", "freiburg2", "freiburg3"}) {
     if (name.find(known) == std::string::npos) continue;
@@ -189,8 +191,9 @@ OpenResult open_tum(const fs::path& folder, const ImportOptions& options) {
   SensorInfo sensor;
   TURNSCAN_ASSIGN(sensor.intrinsics, intrinsics_of(folder, options, header));
   TURNSCAN_ASSIGN(sensor.depth_unit_m, depth_scale(options, kDepthUnit));
+  TURNSCAN_ASSIGN(const auto own_camera, intrinsics_beside(folder));
   if (!options.depth_unit_m) {
-    sensor.model = "kinect-v1";
+    if (!own_camera) sensor.model = "kinect-v1";
     add_note(header,
              "depth images have 5000 steps a metre, as the benchmark defines for its Kinects");
   }

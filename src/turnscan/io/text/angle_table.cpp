@@ -23,6 +23,9 @@ constexpr std::array<TableUnit, 2> kAngleUnits{{{"deg", kRadiansPerDegree}, {"ra
 constexpr std::array<TableUnit, 4> kTimeUnits{
     {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
 
+constexpr std::array<TableUnit, 3> kLengthUnits{{{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}}};
+constexpr std::array<const char*, 7> kPoseNames{"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
+
 struct TableColumn {
   std::size_t position = 0;
   double scale = 1.0;
@@ -39,12 +42,23 @@ class AngleColumns {
     TURNSCAN_ASSIGN(out.time_, out.column("time", kTimeUnits));
     TURNSCAN_ASSIGN(out.pass_, out.column("pass", {}));
     TURNSCAN_ASSIGN(out.sensor_, out.column("sensor", {}));
-    if (out.file_ && (out.angle_ || out.time_)) return out;
-    return fail(ErrorCode::kFormat,
-                "the first line must name the columns, but names {}; known are file and angle_deg "
-                "or angle_rad, or file and "
-                "time_s or time_ms, and pass and sensor may follow: rename them",
-                fmt::join(out.names_, ", "));
+    std::size_t of_pose = 0;
+    for (std::size_t i = 0; i < kPoseNames.size(); ++i) {
+      const std::span<const TableUnit> units =
+          i < 3 ? std::span<const TableUnit>(kLengthUnits) : std::span<const TableUnit>();
+      TURNSCAN_ASSIGN(out.pose_[i], out.column(kPoseNames[i], units));
+      of_pose += out.pose_[i] ? 1 : 0;
+    }
+    if (of_pose != 0 && of_pose != kPoseNames.size())
+      return fail(ErrorCode::kFormat, "a pose needs the columns {}, but the first line names {}",
+                  fmt::join(kPoseNames, ", "), fmt::join(out.names_, ", "));
+    if (out.file_ && (out.angle_ || out.time_ || of_pose != 0)) return out;
+    return fail(
+        ErrorCode::kFormat,
+        "the first line must name the columns, but names {}; known are file and angle_deg "
+        "or angle_rad, file and time_s or time_ms, or file and tx, ty, tz, qx, qy, qz, qw, and "
+        "pass and sensor may follow: rename them",
+        fmt::join(out.names_, ", "));
   }
 
   Result<AngleRow> row(std::string_view line) const {
@@ -55,8 +69,9 @@ class AngleColumns {
     out.file = fields[file_->position];
     TURNSCAN_ASSIGN(out.angle_rad, number(fields, angle_));
     TURNSCAN_ASSIGN(out.time_s, number(fields, time_));
-    if (!out.angle_rad && !out.time_s)
-      return fail(ErrorCode::kFormat, "there is neither an angle nor a time");
+    TURNSCAN_ASSIGN(out.T_world_scan, pose(fields));
+    if (!out.angle_rad && !out.time_s && !out.T_world_scan)
+      return fail(ErrorCode::kFormat, "there is neither an angle, a time nor a pose");
     TURNSCAN_ASSIGN(out.pass, index(fields, pass_, kMaxPass));
     TURNSCAN_ASSIGN(out.sensor, index(fields, sensor_, kMaxSensor));
     return out;
@@ -76,7 +91,7 @@ class AngleColumns {
                                      [&](const TableUnit& u) { return u.name == name.unit; });
       if (unit == units.end())
         return fail(ErrorCode::kFormat, "the column '{}' has an unknown unit; known are {}",
-                    names_[i], base == "angle" ? "deg and rad" : "s, ms, us and ns");
+                    names_[i], units_text(units));
       found->scale = unit->scale;
     }
     return found;
@@ -92,6 +107,24 @@ class AngleColumns {
     return std::optional<double>(*value * column->scale);
   }
 
+  static std::string units_text(std::span<const TableUnit> units) {
+    std::vector<std::string_view> names;
+    for (const TableUnit& unit : units) names.push_back(unit.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
+  /// nullopt if there are no columns for it, or empty ones.
+  Result<std::optional<Pose>> pose(const std::vector<std::string>& fields) const {
+    std::array<double, 7> v{};
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      TURNSCAN_ASSIGN(const std::optional<double> value, number(fields, pose_[i]));
+      if (!value) return std::optional<Pose>();
+      v[i] = *value;
+    }
+    TURNSCAN_ASSIGN(const Pose out, pose_from(Vec3d(v[0], v[1], v[2]), v[3], v[4], v[5], v[6]));
+    return std::optional<Pose>(out);
+  }
+
   Result<std::uint32_t> index(const std::vector<std::string>& fields,
                               const std::optional<TableColumn>& column, std::uint32_t max) const {
     if (!column || fields[column->position].empty()) return 0U;
@@ -105,6 +138,7 @@ class AngleColumns {
   char delimiter_ = ',';
   std::vector<std::string> names_;
   std::optional<TableColumn> file_, angle_, time_, pass_, sensor_;
+  std::array<std::optional<TableColumn>, 7> pose_;
 };
 
 }  // namespace

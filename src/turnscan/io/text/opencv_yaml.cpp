@@ -28,7 +28,8 @@ Result<std::vector<double>> opencv_matrix(std::string_view text, std::string_vie
   for (char& c : numbers) {
     if (c == '\n' || c == '\r') c = ' ';
   }
-  const auto count = std::size_t(std::count(numbers.begin(), numbers.end(), ',')) + 1;
+  const auto commas = std::size_t(std::count(numbers.begin(), numbers.end(), ','));
+  const std::size_t count = trimmed(numbers).empty() ? 0 : commas + 1;
   if (count < least || count > most)
     return fail(ErrorCode::kFormat, "the matrix {} has {} numbers, not {}", name, count, least);
   // OpenCV writes integers with a trailing point.

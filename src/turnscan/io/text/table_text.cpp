@@ -11,7 +11,8 @@ namespace {
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF", kLittleMark = "\xFF\xFE",
                            kBigMark = "\xFE\xFF";
 /// Units that may follow a name after an underscore.
-constexpr std::array<std::string_view, 6> kUnits{"deg", "rad", "s", "ms", "us", "ns"};
+constexpr std::array<std::string_view, 9> kUnits{"deg", "rad", "s",  "ms", "us",
+                                                 "ns",  "m",   "mm", "cm"};
 
 void append_utf8(std::uint32_t c, std::string& out) {
   const auto tail = [&](int shift) { out += char(0x80 | ((c >> shift) & 0x3F)); };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/text/table_text.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
 namespace turnscan::workflow {
@@ -11,21 +12,37 @@ namespace {
 
 constexpr std::uint64_t kMaxBytes = 1 << 20;
 
+/// Where the columns are that give a point, and the scale of x, y and z.
 struct PickColumns {
-  text::CsvColumns columns;
-  bool pixels = false;
+  char delimiter = ',';
+  std::vector<std::string> names;
+  std::vector<std::size_t> positions;  ///< x, y, z or column, row
   double scale = 1.0;
+
+  bool pixels() const { return positions.size() == 2; }
 };
 
 Result<PickColumns> parse_columns(const std::string& path, std::string_view line) {
-  auto columns = text::CsvColumns::parse(line);
-  if (!columns) return fail_at(path, ErrorCode::kFormat, "line 1: {}", columns.error().message);
-  const auto has = [&](const char* x, const char* y, const char* z) {
-    return columns->has(x) && columns->has(y) && columns->has(z);
+  PickColumns out;
+  out.delimiter = text::delimiter_of(line);
+  TURNSCAN_ASSIGN(out.names, text::csv_fields(line, out.delimiter));
+  const auto take = [&](std::initializer_list<const char*> bases, std::string_view unit) {
+    out.positions.clear();
+    for (const char* base : bases) {
+      const auto at = std::find_if(out.names.begin(), out.names.end(), [&](const auto& name) {
+        const text::ColumnName column = text::column_name(name);
+        return column.base == base && column.unit == unit;
+      });
+      if (at == out.names.end()) return false;
+      out.positions.push_back(std::size_t(at - out.names.begin()));
+    }
+    return true;
   };
-  if (has("x_m", "y_m", "z_m")) return PickColumns{*columns, false, 1.0};
-  if (has("x_mm", "y_mm", "z_mm")) return PickColumns{*columns, false, 1e-3};
-  if (columns->has("column") && columns->has("row")) return PickColumns{*columns, true, 1.0};
+  if (take({"x", "y", "z"}, "m")) return out;
+  out.scale = 1e-3;
+  if (take({"x", "y", "z"}, "mm")) return out;
+  out.scale = 1.0;
+  if (take({"column", "row"}, "")) return out;
   return fail_at(path, ErrorCode::kFormat,
                  "line 1 does not name the columns; write x_mm,y_mm,z_mm or x_m,y_m,z_m or "
                  "column,row");
@@ -50,39 +67,41 @@ Result<Vec3d> pixel_point(const AveragedScan& scan, double column, double row) {
 }
 
 Result<Vec3d> parse_pick(const PickColumns& c, std::string_view line, const AveragedScan* scan) {
-  TURNSCAN_ASSIGN(const auto fields, text::csv_fields(line));
-  const auto number = [&](const char* name) -> Result<double> {
-    auto value = parse_number(c.columns.field(fields, name));
-    if (!value) return fail(ErrorCode::kFormat, "column {}: {}", name, value.error().message);
-    return value;
-  };
-  if (c.pixels) {
-    TURNSCAN_ASSIGN(const double column, number("column"));
-    TURNSCAN_ASSIGN(const double row, number("row"));
-    if (scan == nullptr || std::abs(column) > 1e6 || std::abs(row) > 1e6)
-      return fail(ErrorCode::kMissingData, "pixel {}, {} has no depth", column, row);
-    return pixel_point(*scan, column, row);
+  TURNSCAN_ASSIGN(const auto fields, text::csv_fields(line, c.delimiter));
+  Vec3d v = Vec3d::Zero();
+  for (std::size_t i = 0; i < c.positions.size(); ++i) {
+    const std::size_t at = c.positions[i];
+    const auto value = text::parse_decimal(at < fields.size() ? fields[at] : "");
+    if (!value)
+      return fail(ErrorCode::kFormat, "column {}: {}", c.names[at], value.error().message);
+    v[int(i)] = *value;
   }
-  const bool metres = c.scale == 1.0;
-  TURNSCAN_ASSIGN(const double x, number(metres ? "x_m" : "x_mm"));
-  TURNSCAN_ASSIGN(const double y, number(metres ? "y_m" : "y_mm"));
-  TURNSCAN_ASSIGN(const double z, number(metres ? "z_m" : "z_mm"));
-  return Vec3d(c.scale * Vec3d(x, y, z));
+  if (!c.pixels()) return Vec3d(c.scale * v);
+  if (scan == nullptr || std::abs(v.x()) > 1e6 || std::abs(v.y()) > 1e6)
+    return fail(ErrorCode::kMissingData, "pixel {}, {} has no depth", v.x(), v.y());
+  return pixel_point(*scan, v.x(), v.y());
+}
+
+Result<std::string> read_table(const std::string& path) {
+  TURNSCAN_ASSIGN(const std::string bytes, read_file(path, kMaxBytes));
+  auto text = text::utf8_of(bytes);
+  if (!text) return fail_at(path, text.error().code, "{}", text.error().message);
+  return text;
 }
 
 }  // namespace
 
 Result<bool> picks_pixels(const std::string& path) {
-  TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxBytes));
+  TURNSCAN_ASSIGN(const std::string text, read_table(path));
   text::LineReader lines(text);
   const auto first = lines.next_content();
   if (!first) return fail_at(path, ErrorCode::kFormat, "the file of points is empty; fill it");
   TURNSCAN_ASSIGN(const PickColumns columns, parse_columns(path, first->text));
-  return columns.pixels;
+  return columns.pixels();
 }
 
 Result<std::vector<Vec3d>> read_picks(const std::string& path, const AveragedScan* scan) {
-  TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxBytes));
+  TURNSCAN_ASSIGN(const std::string text, read_table(path));
   text::LineReader lines(text);
   const auto first = lines.next_content();
   if (!first) return fail_at(path, ErrorCode::kFormat, "the file of points is empty; fill it");

@@ -120,6 +120,20 @@ class ScanRun {
   /// Makes the mesh first, then the results derived from it.
   Result<> reconstruct_first(const SourceInfo& info, const AfterClock& after) {
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
+    auto placed = make_first_meshes(recording, after);
+    TURNSCAN_ASSIGN(auto findings, find_implausible(recording, context_));
+    if (!placed)
+      return tl::unexpected<Error>(
+          workflow::with_cause(std::move(placed).error(), {std::move(findings)}));
+    keep_found(info, placed->calibrated.choice);
+    placed->findings = std::move(findings);
+    std::vector<workflow::PlacedRecording> all;
+    all.push_back(std::move(*placed));
+    return workflow::conclude_run(all, {}, request(), context_, out_.run);
+  }
+
+  Result<workflow::PlacedRecording> make_first_meshes(const Recording& recording,
+                                                      const AfterClock& after) {
     std::optional<workflow::PlacedRecording> placed;
     if (live_) {
       TURNSCAN_ASSIGN(out_.run.reconstruction, live_->finish(context_));
@@ -138,10 +152,7 @@ class ScanRun {
         TURNSCAN_TRY(write_meshes(after));
       }
     }
-    keep_found(info, placed->calibrated.choice);
-    std::vector<workflow::PlacedRecording> all;
-    all.push_back(std::move(*placed));
-    return workflow::conclude_run(all, {}, request(), context_, out_.run);
+    return std::move(*placed);
   }
 
   /// Whether the choice changes the frames' poses compared to the recording alone.
