@@ -8,7 +8,7 @@ import subprocess
 import time
 
 import harness
-from harness import CANCELLED, COARSE, FAST, HANG_S, NARROW, ROOT, SMALL_PICTURE, ply_cube, start
+from harness import CANCELLED, COARSE, FAST, HANG_S, NARROW, ROOT, SENSOR, SMALL_PICTURE, ply_cube, start
 from recordings import shared_recording
 
 PERCENTAGE = re.compile(r"^ *\d+ % ")

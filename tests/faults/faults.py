@@ -266,16 +266,17 @@ def scenarios(base):
     ]
 
 
-def write_table(points, total, wrong):
-    """points: of each command and kind, tried and calls."""
+def write_table(points, wrong):
+    """points: of each command and kind, tried and calls. Rows of commands that were not tried stay."""
     page = pathlib.Path(__file__).resolve().parents[2] / "docs" / "reliability.md"
-    rows = ["| command | " + " | ".join(KINDS) + " |", "|---" * (1 + len(KINDS)) + "|"]
+    table = re.compile(r"(\| command \| write \|.*?\n\|[-|]+\|\n)(.*?)\n\n[0-9,]+ points, \w+ wrong\.", re.DOTALL)
+    found = table.search(page.read_text())
+    rows = {row.split("|")[1].strip(): row for row in found[2].split("\n")}
     for name, of_kind in points.items():
-        rows.append(f"| {name} | " + " | ".join(f"{of_kind[kind][0]} ({of_kind[kind][1]:,})" for kind in KINDS) + " |")
-    said = f"{total:,} points, {'none' if wrong == 0 else wrong} wrong."
-    text = re.sub(r"\| command \| write \|.*?\n\n[0-9,]+ points, \w+ wrong\.",
-                  lambda _: "\n".join(rows) + "\n\n" + said, page.read_text(), flags=re.DOTALL)
-    page.write_text(text)
+        rows[name] = f"| {name} | " + " | ".join(f"{of_kind[kind][0]} ({of_kind[kind][1]:,})" for kind in KINDS) + " |"
+    total = sum(int(tried) for row in rows.values() for tried in re.findall(r"\| (\d+) \(", row))
+    said = found[1] + "\n".join(rows.values()) + f"\n\n{total:,} points, {wrong or 'none'} wrong."
+    page.write_text(page.read_text().replace(found[0], said))
 
 
 def main():
@@ -303,7 +304,7 @@ def main():
     finally:
         harness.remove(base)
     if "--table" in sys.argv:
-        write_table(points, total, len(wrong))
+        write_table(points, len(wrong))
     print(f"{total} points tried, {len(wrong)} wrong")
     print("\n".join(wrong))
     return 1 if wrong else 0
