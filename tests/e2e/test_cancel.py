@@ -8,7 +8,7 @@ import subprocess
 import time
 
 import harness
-from harness import CANCELLED, COARSE, FAST, HANG_S, NARROW, ROOT, SMALL_PICTURE, ply_cube, start
+from harness import CANCELLED, COARSE, FAST, HANG_S, NARROW, ROOT, SENSOR, SMALL_PICTURE, ply_cube, start
 from recordings import shared_recording
 
 PERCENTAGE = re.compile(r"^ *\d+ % ")
@@ -97,6 +97,29 @@ class Cancel(harness.TestCase):
         seconds = self.stop_at(None, 0, args, delay=0.5, stop_signal=signal.SIGTERM)
         self.assertLess(seconds, STOP_S)
         self.assertEqual(self.files(), [])
+
+    def test_a_scan_stops_while_it_looks_for_the_speed(self):
+        """Its thread does; the frames of a source that waits stand still meanwhile: after 4 s of
+        them, and after half a turn."""
+        for frames in (0, 118, 455):
+            with self.subTest(frames=frames):
+                process = start("scan", "--device", f"virtual:doll?sensor={SENSOR}", "-o", "m.ply",
+                                "--no-wait", "--min-free", "0", "--quiet", cwd=self.dir)
+                table = self.dir / "m.recording" / "frames.csv"
+                while frames and not (table.exists() and table.read_bytes().count(b"\n") > frames):
+                    self.assertIsNone(process.poll())
+                    time.sleep(0.005)
+                time.sleep(0.5)
+                before = sum(map(int, pathlib.Path(f"/proc/{process.pid}/stat").read_text()
+                                 .rpartition(")")[2].split()[11:13])) / os.sysconf("SC_CLK_TCK")
+                process.send_signal(signal.SIGTERM)
+                _, status, used = os.wait4(process.pid, 0)
+                process.returncode = os.waitstatus_to_exitcode(status)
+                process.communicate()
+                self.assertEqual(process.returncode, CANCELLED)
+                # Of the processor, whose other work is not counted.
+                self.assertLess(used.ru_utime + used.ru_stime - before, 0.5)
+                harness.remove(self.dir / "m.recording")
 
     def test_the_second_ctrl_c_ends_at_once(self):
         process = start("demo", "--object", "cylinder", "--frames", "900", "--out", "d",

@@ -271,6 +271,53 @@ class Scan(harness.TestCase):
         again = self.assert_as_reconstructed()
         self.assertIn("moved", " ".join(again["notes"]))
 
+    def scan_killed_and_resumed(self, device, at, *more):
+        """The lines of frames.csv at the kill."""
+        args = ("scan", "--device", device, "-o", "doll.3mf", "--report", "r.json", "--no-wait",
+                "--min-free", "0", *more, *self.FAST)
+        process = start(*args, cwd=self.dir, env={"XDG_STATE_HOME": str(self.dir / "state")})
+        table = self.dir / "doll.recording" / "frames.csv"
+        while not table.exists() or table.read_bytes().count(b"\n") <= at:
+            self.assertIsNone(process.poll())
+            time.sleep(0.005)
+        process.kill()
+        process.communicate()
+        lines = len(frames_of(self.dir / "doll.recording"))
+        self.ok(*args, "--resume", "doll.recording")
+        return lines
+
+    def test_a_scan_of_a_source_that_waits_goes_on_as_if_nothing_had_happened(self):
+        self.ok("scan", "--device", self.device, "-o", "whole.3mf", "--no-wait", *self.FAST)
+        harness.remove(self.dir / "state")
+        self.scan_killed_and_resumed(self.device, 40)
+        self.assertEqual((self.dir / "doll.recording/frames.csv").read_bytes(),
+                         (self.dir / "whole.recording/frames.csv").read_bytes())
+        self.assertEqual((self.dir / "doll.3mf").read_bytes(),
+                         (self.dir / "whole.3mf").read_bytes())
+
+    def f_score(self, mesh):
+        self.ok("evaluate", mesh, "--reference", self.truth(), "--align", "icp", "--samples",
+                "50000", "--json", "e.json")
+        judged = json.loads((self.dir / "e.json").read_text())
+        return next(s["f"] for s in judged["scores"] if s["threshold_m"] == 0.001)
+
+    def test_a_turn_that_was_cut_short_is_resumed_as_a_new_stretch(self):
+        device = (f"virtual:{self.truth()}?sensor={SENSOR}&fps=12&speed=24deg/s&calibration=true"
+                  "&realtime=1&prepared=200")
+        self.ok("scan", "--device", device, "-o", "whole.3mf", "--no-wait", "--min-free", "0",
+                *self.FAST)
+        before = self.scan_killed_and_resumed(device, 40)
+        recording = self.dir / "doll.recording"
+        self.assertEqual(description(recording)["resumed_at"], [before])
+        frames = frames_of(recording)
+        self.assertGreater(len(frames), before + 80)
+        times = [float(line[1]) for line in frames]
+        self.assertEqual(times, sorted(times))
+        notes = " ".join(json.loads((self.dir / "r.json").read_text())["reconstruction"]["notes"])
+        self.assertIn("found from motion", notes)
+        self.assert_closed()
+        self.assertAlmostEqual(self.f_score("doll.3mf"), self.f_score("whole.3mf"), delta=0.005)
+
     def test_seconds_bound_the_wait_for_an_object(self):
         self.refused(FAILED, "scan", "--device", self.device + "&calibration=true&appears=60s",
                      "--seconds", "3", "-o", "doll.3mf", *self.FAST,
@@ -469,6 +516,77 @@ class Turntable(harness.TestCase):
                 "80deg/s", "--stops", "12", "--turns", "0.25", "--stop-frames", "2", "--settle",
                 "50ms", *TIMED, *self.FAST)
         self.assertEqual([line[5] for line in frames_of(self.dir / "r")], ["0", "30", "60"])
+
+    # Two frames a stop: the simulated table has turned by a step meanwhile.
+    def stop_and_go(self, table, *more, stops=36, serial=0, more_of_device=""):
+        device = (f"virtual:doll?sensor={SENSOR}&calibration=true&fps=30&speed=150deg/s"
+                  f"&noise=gaussian:1mm&serial={serial}{more_of_device}")
+        return ("capture", "--device", device, "--motor", table.port, "--speed", "90deg/s", *TIMED,
+                "--stops", stops, "--stop-frames", "1", "--settle", "0s", *self.FAST, *more)
+
+    def end_at(self, frames, signal_number, *args):
+        """Ends the capture into the recording r as soon as it has so many frames."""
+        process = start(*args, cwd=self.dir)
+        while not (table := self.dir / "r" / "frames.csv").exists() or (
+                table.read_bytes().count(b"\n") <= frames):
+            self.assertIsNone(process.poll(), process.stderr)
+            time.sleep(0.002)
+        process.send_signal(signal_number)
+        process.communicate(timeout=30)
+
+    def test_stops_that_were_cut_short_are_resumed(self):
+        table = self.table()
+        self.ok(*self.stop_and_go(table, "-o", "whole"))
+        whole = {p.relative_to(self.dir / "whole"): p.read_bytes()
+                 for p in (self.dir / "whole").rglob("*") if p.suffix in (".png", ".csv")}
+        for moments in ((1,), (7,), (20, 31)):
+            with self.subTest(moments=moments):
+                table = self.table()
+                args = self.stop_and_go(table, "-o", "r")
+                for k, frames in enumerate(moments):
+                    self.end_at(frames, (signal.SIGKILL, signal.SIGTERM)[k % 2], *args)
+                    args = self.stop_and_go(table, "--resume", "r")
+                self.ok(*args)
+                self.assertAlmostEqual(table.angle, 350.0, delta=0.1)
+                self.assertEqual({p.relative_to(self.dir / "r"): p.read_bytes()
+                                  for p in (self.dir / "r").rglob("*")
+                                  if p.suffix in (".png", ".csv")}, whole)
+                self.refused(USAGE, *args, says="it is finished")
+                if len(moments) > 1:
+                    for name in ("whole", "r"):
+                        self.ok("reconstruct", name, "-o", f"{name}.ply", *harness.COARSE)
+                    self.assertEqual((self.dir / "whole.ply").read_bytes(),
+                                     (self.dir / "r.ply").read_bytes())
+                shutil.rmtree(self.dir / "r")
+
+    def test_stops_of_a_live_sensor_are_resumed_with_the_next_one(self):
+        table = self.table()
+        args = self.stop_and_go(table, "-o", "r", stops=12, more_of_device="&realtime=1&prepared=30")
+        self.end_at(4, signal.SIGKILL, *args)
+        resume = self.stop_and_go(table, "--resume", "r", stops=12, more_of_device="&realtime=1&prepared=30")
+        # A board that was moved meanwhile knows where it stands.
+        self.ok("turntable", "rotate", "--port", table.port, *self.FAST, "--angle", "-50deg")
+        self.ok(*resume)
+        frames = frames_of(self.dir / "r")
+        self.assertEqual([float(line[5]) for line in frames], [30.0 * i for i in range(12)])
+        self.assertAlmostEqual(table.angle, 330.0, delta=0.1)
+        times = [float(line[1]) for line in frames]
+        self.assertEqual(times, sorted(times))
+        self.assertNotIn("resumed_at", description(self.dir / "r"))
+
+    def test_what_cannot_be_resumed(self):
+        table = self.table()
+        self.end_at(3, signal.SIGKILL, *self.stop_and_go(table, "-o", "r"))
+        resume = self.stop_and_go(table, "--resume", "r")
+        self.refused(USAGE, *resume, "-o", "s", says="either")
+        self.refused(USAGE, *self.stop_and_go(table, "--resume", "r", stops=12), says="--stops 36")
+        self.refused(USAGE, *self.stop_and_go(table, "--resume", "r", serial=7),
+                     says="another device")
+        self.refused(FAILED, *self.stop_and_go(table, "--resume", "nowhere"), says="no recording")
+        with open(self.dir / "r" / "frames.csv") as frames:
+            fcntl.flock(frames, fcntl.LOCK_EX)
+            self.refused(FAILED, *resume, says="is being recorded just now")
+        self.ok(*resume)
 
     def test_no_such_port_and_no_such_action(self):
         self.refused(FAILED, "turntable", "status", "--port", "/dev/ttyNONE", says="no such serial")

@@ -138,6 +138,9 @@ extern "C" {
 int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(),
                       void (*fini)(), void (*rtld_fini)(), void* stack_end) {
   program_main = main;
+  // Looked up now: dlerror() calls realloc(), and a dlsym() in there frees what dlerror() then
+  // writes to.
+  free(realloc(malloc(1), 2));
   const auto start =
       reinterpret_cast<decltype(&__libc_start_main)>(dlsym(RTLD_NEXT, "__libc_start_main"));
   return start(armed_main, argc, argv, init, fini, rtld_fini, stack_end);

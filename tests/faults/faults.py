@@ -3,13 +3,14 @@
 After each: the program ended by itself with one sentence (or, for want of memory in a noexcept function of
 the C++ library, by std::terminate); each output is the old one whole or the
 new one whole; a recording opens with every frame that its table acknowledges; nothing half-written
-lies about. FAULTS_FULL=1 tries every point, otherwise up to FAULTS_POINTS of a kind of calls
+lies about. With --table the table in docs/reliability.md is written anew. FAULTS_FULL=1 tries every point, otherwise up to FAULTS_POINTS of a kind of calls
 (default 9; four times as many allocations), spread evenly. Prints the number of points tried. See docs/reliability.md.
 """
 
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -25,7 +26,12 @@ POINTS = int(os.environ.get("FAULTS_POINTS", "9"))
 KINDS = ("write", "sync", "rename", "open", "thread", "memory")
 FRAMES = 6  # of the recording that the scenarios share
 OLD = "what was there before\n"
+ONE_TASK = ("--set", "allow-open=true", "--jobs", 1, "--task-threads", 1, "--quiet")
 FEW = ("--voxel-size", "6mm", "--quiet", "--threads", "2")
+
+
+def replay(source):
+    return f"replay:{source / 'rec'}?speed=max"
 
 
 def call(args, cwd, **fault):
@@ -44,11 +50,11 @@ def calls_of(kind, args, folder):
     return int(count.read_text()), done
 
 
-def numbers_to_try(kind, start, count):
+def numbers_to_try(kind, start, count, points):
     """start: calls before the command begins, which are all alike; a third as many points for them."""
-    if FULL or count <= POINTS:
+    if FULL or count <= points:
         return range(1, count + 1)
-    points = 3 * POINTS if kind == "memory" else POINTS
+    points = 3 * points if kind == "memory" else points
 
     def spread(first, last, number):
         return {first + round(i * (last - first) / max(number - 1, 1)) for i in range(number)}
@@ -87,9 +93,13 @@ def read_frames(folder):
 class Scenario:
     """A command with its inputs and what must hold after it failed."""
 
-    def __init__(self, name, args, prepare, files=(), recording=None, least=None):
+    def __init__(self, name, args, prepare, files=(), recording=None, least=None, also=None,
+                 points=POINTS):
+        """also(folder, done): raises AssertionError if something else is not as promised. points: fewer of
+        a command that takes seconds."""
         self.name, self.args, self.prepare = name, args, prepare
-        self.files, self.recording, self.least = files, recording, least
+        self.files, self.recording, self.least, self.also = files, recording, least, also
+        self.points = points
         self.new = {}
         self.aborted = 0
 
@@ -138,6 +148,8 @@ class Scenario:
                 content in (OLD.encode(), self.new[file])
             if not whole:
                 raise AssertionError(f"{file} is neither the old one nor the new one")
+        if self.also:
+            self.also(folder, done)
         if self.recording is None:
             return
         found = frames_of(folder / self.recording)
@@ -155,7 +167,7 @@ class Scenario:
         start = calls_of(kind, ["--version"], base / "run")[0]
         tried = 0
         wrong = []
-        for number in numbers_to_try(kind, min(start, count - 1), count):
+        for number in numbers_to_try(kind, min(start, count - 1), count, self.points):
             for lasts in ({}, {"FAULT_LASTS": 1}) if kind in ("write", "open") else ({},):
                 folder = self.fresh(base)
                 done = call(self.args, folder, FAULT_KIND=kind, FAULT_AT=number, **lasts)
@@ -180,6 +192,20 @@ def scenarios(base):
     if made.returncode != 0:
         raise AssertionError(made.stderr)
 
+    (source / "cube.ply").write_text(harness.ply_cube(0.1))
+    for args in (("simulate", "builtin:labelled-cylinder", "--scanner", source / "tiny.toml", "--frames", FRAMES,
+                  "--scan-colour", "-o", source / "coloured", "--quiet"),
+                 ("batch", "run", source / "rec", "--out", source / "batch", *ONE_TASK, "--set", "voxel-size=7mm"),
+                 ("capture", "--device", replay(source), "-o", source / "cut", "--min-free", "0", "--quiet")):
+        made = call(args, base)
+        if made.returncode != 0:
+            raise AssertionError(made.stderr)
+    table = source / "cut" / "frames.csv"
+    table.write_bytes(b"".join(table.read_bytes().splitlines(keepends=True)[:3]))
+    description = source / "cut" / "recording.json"
+    description.write_text(re.sub(r'("complete": )true|"ended": "[^"]*",?|"frame_count": [0-9]+,',
+                                  lambda m: '"complete": false' if m[1] else "", description.read_text()))
+
     def recording(folder):
         shutil.copytree(source / "rec", folder / "rec")
 
@@ -190,6 +216,25 @@ def scenarios(base):
         with open(folder / "rec" / "frames.csv", "a", encoding="utf-8") as table:
             table.write(f"{FRAMES},0.4,0")
 
+    def batch(folder):
+        recording(folder)
+        shutil.copytree(source / "batch", folder / "batch")
+
+    def batch_is_whole(folder, done):
+        """The result is the old one or the new one, and summary and state can be read."""
+        result = folder / "batch" / "tasks" / "rec" / "result"
+        if not (result / "mesh.ply").exists():
+            raise AssertionError("there is no result, neither the old one nor a new one")
+        for file in (result / "report.json", folder / "batch" / "summary.json"):
+            json.loads(file.read_text())
+
+    def plan_is_whole(folder, done):
+        plans = folder / "plans"
+        if done.returncode == 0 or (plans / "plan.json").exists():
+            json.loads((plans / "plan.json").read_text())
+            if not (plans / "plan-1.toml").read_text():
+                raise AssertionError("plan.json names a plan that is empty")
+
     return [
         Scenario("import", ("import", source / "foreign", "-o", "rec", "--depth-unit", "1mm",
                             "--quiet", "--threads", 2), lambda f: None,
@@ -197,7 +242,7 @@ def scenarios(base):
         Scenario("simulate", ("simulate", "builtin:cylinder", "--scanner", source / "tiny.toml",
                               "--frames", 3, "-o", "rec", "--report", "r.json", "--quiet",
                               "--threads", 2), lambda f: None, files=("r.json",), recording="rec"),
-        Scenario("capture", ("capture", "--device", f"replay:{source / 'rec'}?speed=max", "-o", "rec",
+        Scenario("capture", ("capture", "--device", replay(source), "-o", "rec",
                              "--report", "r.json", "--quiet"), lambda f: None, files=("r.json",),
                  recording="rec"),
         Scenario("reconstruct", ("reconstruct", "rec", "-o", "m.ply", "--report", "r.json",
@@ -205,8 +250,33 @@ def scenarios(base):
                  recording="rec", least=FRAMES),
         Scenario("calibrate", ("calibrate", "rec", "--save", "c.json", "--quiet", "--threads", 2),
                  recording, files=("c.json",), recording="rec", least=FRAMES),
+        Scenario("resume", ("capture", "--device", replay(source), "--resume", "cut", "--min-free", "0",
+                            "--quiet"), lambda f: shutil.copytree(source / "cut", f / "cut"),
+                 recording="cut", least=2),
+        Scenario("batch", ("batch", "run", "rec", "--out", "batch", *ONE_TASK, "--set", "voxel-size=6mm"),
+                 batch, also=batch_is_whole, points=POINTS // 3),
+        Scenario("report", ("report", source / "cube.ply", "-o", "r.html", "--quiet"), lambda f: None,
+                 files=("r.html",), points=POINTS // 3),
+        Scenario("plan", ("plan", "builtin:cylinder", "--scanner", source / "tiny.toml", "-o", "plans", "--plans",
+                          1, "--trials", 0, "--frames", FRAMES, "--quiet", "--threads", 2),
+                 lambda f: None, also=plan_is_whole, points=POINTS // 3),
+        Scenario("texture", ("reconstruct", source / "coloured", "-o", "m.obj", "--texture", "--allow-open", *FEW),
+                 lambda f: None, files=("m.obj", "m.mtl", "m.png")),
         Scenario("repair", ("info", "--repair", "rec"), unfinished, recording="rec", least=FRAMES),
     ]
+
+
+def write_table(points, wrong):
+    """points: of each command and kind, tried and calls. Rows of commands that were not tried stay."""
+    page = pathlib.Path(__file__).resolve().parents[2] / "docs" / "reliability.md"
+    table = re.compile(r"(\| command \| write \|.*?\n\|[-|]+\|\n)(.*?)\n\n[0-9,]+ points, \w+ wrong\.", re.DOTALL)
+    found = table.search(page.read_text())
+    rows = {row.split("|")[1].strip(): row for row in found[2].split("\n")}
+    for name, of_kind in points.items():
+        rows[name] = f"| {name} | " + " | ".join(f"{of_kind[kind][0]} ({of_kind[kind][1]:,})" for kind in KINDS) + " |"
+    total = sum(int(tried) for row in rows.values() for tried in re.findall(r"\| (\d+) \(", row))
+    said = found[1] + "\n".join(rows.values()) + f"\n\n{total:,} points, {wrong or 'none'} wrong."
+    page.write_text(page.read_text().replace(found[0], said))
 
 
 def main():
@@ -214,8 +284,8 @@ def main():
         print("the shim was not built")
         return 77
     base = pathlib.Path(tempfile.mkdtemp(prefix="turnscan-faults-"))
-    chosen = set(sys.argv[1:])
-    total, wrong = 0, []
+    chosen = set(sys.argv[1:]) - {"--table"}
+    total, wrong, points = 0, [], {}
     try:
         every = harness.part_of(scenarios(base))
         names = {scenario.name for scenario in every}
@@ -227,11 +297,14 @@ def main():
                 count, tried, found = scenario.run(base, kind)
                 total += tried
                 wrong += found
+                points.setdefault(scenario.name, {})[kind] = (tried, count)
                 print(f"{scenario.name}: {tried} points of {count} calls: {kind}, {len(found)} wrong"
                       + (f", {scenario.aborted} ended by std::terminate" if kind == "memory" else ""),
                       flush=True)
     finally:
         harness.remove(base)
+    if "--table" in sys.argv:
+        write_table(points, len(wrong))
     print(f"{total} points tried, {len(wrong)} wrong")
     print("\n".join(wrong))
     return 1 if wrong else 0

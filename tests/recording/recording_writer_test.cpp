@@ -114,6 +114,28 @@ TEST(RecordingWriter, GoesOnWithARecordingThatIsComplete) {
   EXPECT_EQ(recording->read(0)->depth.pixels, depth_frame(0).depth.pixels);
 }
 
+TEST(RecordingWriter, AStretchBeginsWhereARecordingWasResumed) {
+  const TempFolder temp;
+  auto writer = RecordingWriter::create(temp / "r", small_header());
+  ASSERT_TRUE(writer && writer->append(depth_frame(0)) && writer->append(depth_frame(1)));
+  ASSERT_TRUE(writer->finish());
+  writer = tl::unexpected<Error>(Error());
+  writer = RecordingWriter::extend(temp / "r", ColorFileFormat::kPng, 2);
+  // Said before the first frame comes: the writer may be killed.
+  ASSERT_TRUE(writer && writer->append(depth_frame(2)));
+  const auto stretches = [](const fs::path& folder) {
+    std::vector<std::uint32_t> out;
+    const auto recording = Recording::open(folder);
+    if (recording)
+      for (const FrameInfo& frame : recording->frames()) out.push_back(frame.stretch);
+    return out;
+  };
+  EXPECT_EQ(stretches(temp / "r"), (std::vector<std::uint32_t>{0, 0, 1}));
+  ASSERT_TRUE(writer->finish());
+  ASSERT_TRUE(write_recording(temp / "copy", *Recording::open(temp / "r"), RunContext()));
+  EXPECT_EQ(stretches(temp / "copy"), (std::vector<std::uint32_t>{0, 0, 1}));
+}
+
 TEST(RecordingWriter, AddsNothingToWhatAnotherProgramWrote) {
   const TempFolder temp;
   ASSERT_TRUE(write_recording(temp / "r", many_frames(3), RunContext()));

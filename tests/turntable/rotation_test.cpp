@@ -54,6 +54,18 @@ TEST(Rotation, SpeedTimesTimeSinceTheFirstFrameIsTheAngle) {
   EXPECT_EQ(poses->source, PoseSource::kTimesAndSpeed);
 }
 
+TEST(Rotation, NoSpeedSpansTheGapBeforeARecordingWasResumed) {
+  SequenceHeader header = header_with_table();
+  header.turntable->speed_rad_s = 0.2;
+  FrameInfo later = at_time(8.0);
+  later.stretch = 1;
+  for (const std::optional<double> stated : {std::optional<double>(), std::optional(0.2)})
+    EXPECT_EQ(frame_poses(header, {at_time(3.0), later}, stated).error().code,
+              ErrorCode::kMissingData);
+  later.angle_rad = 1.0;
+  EXPECT_TRUE(frame_poses(header, {at_time(3.0), later}, std::nullopt));
+}
+
 TEST(Rotation, AStatedSpeedGoesBeforeTheRecordedOne) {
   SequenceHeader header = header_with_table();
   header.turntable->speed_rad_s = 0.2;

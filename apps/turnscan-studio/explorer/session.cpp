@@ -10,6 +10,7 @@
 #include <tuple>
 #include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/folder.hpp>
 
 #include "explorer/editing/edits.hpp"
 
@@ -22,7 +23,9 @@ constexpr int kPauseOfLook_ms = 1500;  // the same, for changes of the camera
 QString lock_of(const QString& folder) { return folder + ".lock"; }
 
 void remove_folder(const QString& folder) {
-  QDir(folder).removeRecursively();
+  const QFileInfo info(folder);
+  if (const auto root = file::Folder::open(info.path().toStdString()))
+    (void)root->remove(info.fileName().toStdString());
   QFile::remove(lock_of(folder));  // of a killed process
 }
 
@@ -43,7 +46,7 @@ SessionKeeper::SessionKeeper(ModelStore& store, const QString& root, QObject* pa
 SessionKeeper::~SessionKeeper() {
   writer_.clear();
   writer_.waitForDone();
-  if (lock_) QDir(folder_).removeRecursively();
+  if (lock_) remove_folder(folder_);
 }
 
 QString SessionKeeper::default_root() {
@@ -52,8 +55,8 @@ QString SessionKeeper::default_root() {
 }
 
 std::optional<LostSession> SessionKeeper::find_lost(const QString& root) {
-  const QStringList folders =
-      QDir(root).entryList(QDir::Dirs | QDir::NoDotAndDotDot, QDir::Name | QDir::Reversed);
+  const QStringList folders = QDir(root).entryList(
+      QDir::Dirs | QDir::NoSymLinks | QDir::NoDotAndDotDot, QDir::Name | QDir::Reversed);
   for (const QString& name : folders) {
     LostSession lost{QDir(root).filePath(name), {}};
     QLockFile lock(lock_of(lost.folder));

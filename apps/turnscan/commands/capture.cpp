@@ -18,26 +18,34 @@ class CaptureCommand : public Command {
     line.required_repeatable("--device", "URI", setup_.devices,
                              "Sensor to record from, e.g. virtual:doll (see docs/capture.md). May "
                              "be given several times, for one recording of all of them");
-    line.required_option("-o,--out", "RECORDING", out_,
-                         "Folder to create for the recording; if it exists, it must be empty");
+    line.option("-o,--out", "RECORDING", out_,
+                "Folder to create for the recording; if it exists, it must be empty");
+    line.option("--resume", "RECORDING", resume_, kResumeHelp);
     line.flag("--overwrite-unfinished", overwrite_unfinished_, kOverwriteUnfinishedHelp);
     line.option("--report", "FILE.json", report_, "Write what was recorded and dropped as JSON");
     declare_capture(line, setup_);
     declare_table(line, setup_);
     line.group("limits", "End of the recording", describe(setup_.options.limits));
     line.common({"device", "out", "turns", "seconds", "speed", "motor", "turntable", "crop",
-                 "color-files", "report", "overwrite-unfinished"});
+                 "color-files", "report", "resume", "overwrite-unfinished"});
   }
 
   FileRoles files() const override {
     return {with_replayed(setup_.devices, setup_.turntable_file),
             {report_},
             {},
-            overwrite_unfinished_ ? out_ : std::string()};
+            overwrite_unfinished_ ? out_ : resume_};
   }
 
   Result<> run(Session& session) override {
-    TURNSCAN_TRY(check_output_folder(out_, overwrite_unfinished_));
+    if (out_.empty() == resume_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "name either a new recording with --out or one to go on with with --resume");
+    setup_.options.resume = !resume_.empty();
+    if (setup_.options.resume)
+      out_ = resume_;
+    else
+      TURNSCAN_TRY(check_output_folder(out_, overwrite_unfinished_));
     TURNSCAN_TRY(check_output_file(report_, ".json"));
     session.plan({{"open device", 1.0}, {"connect motor", 1.0}, {"record", 30.0}});
     TURNSCAN_ASSIGN(auto source, setup_.open(session.context()));
@@ -46,7 +54,7 @@ class CaptureCommand : public Command {
     hooks.motor = motor ? &*motor : nullptr;
     hooks.progress = progress_in(session);
     TURNSCAN_TRY(source->start());
-    TURNSCAN_TRY(clear_output_folder(out_, overwrite_unfinished_));
+    if (!setup_.options.resume) TURNSCAN_TRY(clear_output_folder(out_, overwrite_unfinished_));
     session.context().begin_phase("record", 1000);
     TURNSCAN_ASSIGN(const CaptureResult result,
                     turnscan::capture(*source, out_, setup_.header, setup_.settings, setup_.options,
@@ -63,7 +71,7 @@ class CaptureCommand : public Command {
 
  private:
   CaptureSetup setup_;
-  std::string out_, report_;
+  std::string out_, resume_, report_;
   bool overwrite_unfinished_ = false;
 };
 

@@ -12,6 +12,10 @@ namespace turnscan::cli {
 
 class CommandLine;
 
+/// Help of --resume.
+inline constexpr const char* kResumeHelp =
+    "Go on with this recording, which was ended early. Give the options with which it was begun";
+
 /// All options of a setup except --device, limits, speed and crop.
 void declare_capture(CommandLine& line, CaptureSetup& setup);
 

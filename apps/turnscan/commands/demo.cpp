@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/folder.hpp>
 #include <turnscan/recording/recording.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 
@@ -54,14 +55,23 @@ class DemoCommand : public Command {
     TURNSCAN_ASSIGN(const std::vector<std::string> scenes, scene_names(object_));
     const fs::path folder = out_.empty() ? free_folder() : fs::path(out_);
     TURNSCAN_TRY(check_output_folder(folder.string()));
+    const bool existed = fs::exists(folder);
     Result<> result = run_scenes(scenes, folder, session);
     // Nobody needs the partial results of a cancelled demo.
-    std::error_code error;
-    if (!result && result.error().code == ErrorCode::kCancelled) fs::remove_all(folder, error);
+    if (!result && result.error().code == ErrorCode::kCancelled) discard(folder, scenes, existed);
     return result;
   }
 
  private:
+  static void discard(const fs::path& folder, const std::vector<std::string>& scenes,
+                      bool existed) {
+    const auto own = file::Folder::open(folder);
+    if (!own) return;
+    for (const std::string& scene : scenes) (void)own->remove(scene);
+    std::error_code ignored;
+    if (!existed) fs::remove(folder, ignored);
+  }
+
   Result<> run_scenes(const std::vector<std::string>& scenes, const fs::path& folder,
                       Session& session) const {
     workflow::TextTable table({0});

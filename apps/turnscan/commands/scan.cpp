@@ -40,6 +40,7 @@ class ScanCommand : public Command {
                          "Mesh to write: .ply, .obj or .glb in metres, .stl or .3mf in mm");
     line.option("--recording", "FOLDER", request_.recording,
                 "Folder to create for the recording, by default beside the mesh. It is kept");
+    line.option("--resume", "RECORDING", resume_, kResumeHelp);
     line.flag("--overwrite-unfinished", request_.overwrite_unfinished,
               "Replace the recording there if it was not finished");
     line.repeatable("--report", "FILE.json|FILE.html", reports_,
@@ -66,11 +67,17 @@ class ScanCommand : public Command {
     for (const std::string& file : texture_files_of(request_.mesh, request_.reconstruct.texture))
       outputs.push_back(file);
     return {with_replayed(request_.setup.devices, request_.setup.turntable_file), outputs,
-            request_.mesh, request_.overwrite_unfinished ? recording_of(request_) : std::string()};
+            request_.mesh, request_.overwrite_unfinished ? recording_of(request_) : resume_};
   }
 
   Result<> run(Session& session) override {
     request_.wait = !no_wait_;
+    if (!resume_.empty() && !request_.recording.empty())
+      return fail(
+          ErrorCode::kInvalidOption,
+          "name either a new recording with --recording or one to go on with with --resume");
+    request_.setup.options.resume = !resume_.empty();
+    if (!resume_.empty()) request_.recording = resume_;
     TURNSCAN_ASSIGN(const ReportFiles reports, sort_report_files(reports_));
     request_.report = reports.json;
     request_.page = reports.page;
@@ -105,6 +112,7 @@ class ScanCommand : public Command {
   ScanRequest request_;
   std::vector<std::string> reports_;
   PassCount passes_;
+  std::string resume_;
   bool no_wait_ = false;
 };
 

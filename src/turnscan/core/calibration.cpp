@@ -103,6 +103,7 @@ Result<std::unique_ptr<FrameSequence>> with_calibration(const FrameSequence& seq
       frames[i].angle_rad.reset();
     }
   }
+  for (const std::size_t i : calibration.left_out) frames[i].status = FrameStatus::kDropped;
   auto out = std::make_unique<SequenceView>(sequence);
   out->set_header(std::move(header));
   out->set_frames(std::move(frames));

@@ -67,8 +67,9 @@ struct Calibration {
   /// One per frame of the recording, in order; empty where only the place is known.
   std::vector<double> angles_rad;
   std::vector<double> angle_sigma_rad;
-  std::vector<TableSlip> slips;   ///< contained in the angles; not saved
-  std::optional<double> start_s;  ///< when the table began to turn, in the frames' time
+  std::vector<std::size_t> left_out;  ///< positions of frames whose angle was not found; not saved
+  std::vector<TableSlip> slips;       ///< contained in the angles; not saved
+  std::optional<double> start_s;      ///< when the table began to turn, in the frames' time
 
   double residual_rms_m = std::numeric_limits<double>::quiet_NaN();
   double residual_mean_abs_m = std::numeric_limits<double>::quiet_NaN();
@@ -90,10 +91,11 @@ struct Calibration {
 Result<> correct_sensors(const Calibration& calibration, std::vector<SensorInfo>& sensors);
 
 /// The sequence with the calibration applied: its turntable, its angles in place of those of the
-/// frames, its cameras and depth, the poses of its other sensors. Frames with poses of their own
-/// lose them, unless the calibration has neither angles nor speed. `sequence` must outlive the
-/// result. Fails with kInvalidOption when the number of angles is not that of the frames, when it
-/// knows more sensors than the sequence has, and as correct_sensors() does.
+/// frames, its cameras and depth, the poses of its other sensors. What it leaves out is dropped.
+/// Frames with poses of their own lose them, unless the calibration has neither angles nor speed.
+/// `sequence` must outlive the result. Fails with kInvalidOption when the number of angles is not
+/// that of the frames, when it knows more sensors than the sequence has, and as correct_sensors()
+/// does.
 Result<std::unique_ptr<FrameSequence>> with_calibration(const FrameSequence& sequence,
                                                         const Calibration& calibration);
 

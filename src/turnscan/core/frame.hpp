@@ -60,6 +60,7 @@ struct FrameInfo {
   std::uint32_t sensor = 0;
   std::uint32_t pass = 0;  ///< counts the poses in which the object was laid
   std::uint32_t turn = 0;
+  std::uint32_t stretch = 0;  ///< how often it had been resumed; the turn in between is unknown
   std::optional<double> angle_rad;     ///< how far the platter has turned since the first frame
   std::optional<Pose> T_table_sensor;  ///< pose of this very frame; takes precedence over the angle
   std::string file;                    ///< relative to the sequence's folder

@@ -13,6 +13,7 @@ constexpr auto kListenerInterval = std::chrono::milliseconds(50);
 
 struct RunContext::State {
   std::atomic<bool> cancelled{false};
+  std::shared_ptr<const State> parent;  ///< of a quiet context
   std::atomic<std::uint64_t> done{0};
   std::atomic<std::uint64_t> total{0};
   std::atomic<Clock::rep> next_report{0};
@@ -36,7 +37,15 @@ void RunContext::set_listener(Listener listener) {
 
 void RunContext::cancel() const noexcept { state_->cancelled.store(true); }
 bool RunContext::cancelled() const noexcept {
-  return state_->cancelled.load(std::memory_order_relaxed);
+  for (const State* state = state_.get(); state != nullptr; state = state->parent.get())
+    if (state->cancelled.load(std::memory_order_relaxed)) return true;
+  return false;
+}
+
+RunContext RunContext::quiet() const {
+  RunContext out;
+  out.state_->parent = state_;
+  return out;
 }
 
 Result<> RunContext::check() const {

@@ -35,6 +35,10 @@ class RunContext {
   /// Succeeds, or fails with ErrorCode::kCancelled.
   Result<> check() const;
 
+  /// A context for work in the background, whose phases are not shown: it is cancelled when this
+  /// one is, and by itself.
+  RunContext quiet() const;
+
   /// Starts a phase of total_steps steps (0: unknown).
   void begin_phase(std::string name, std::uint64_t total_steps) const;
   void advance(std::uint64_t steps = 1) const;

@@ -172,6 +172,9 @@ Result<Recording> Recording::open(const fs::path& folder) {
   recording.capture_ = std::move(description.capture);
   recording.complete_ = description.complete;
   for (FrameRow& row : table.rows) {
+    const auto& resumed = description.resumed_at;
+    row.info.stretch = static_cast<std::uint32_t>(
+        std::upper_bound(resumed.begin(), resumed.end(), row.info.index) - resumed.begin());
     recording.frames_.push_back(std::move(row.info));
     recording.color_files_.push_back(std::move(row.color_file));
   }

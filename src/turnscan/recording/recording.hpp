@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <turnscan/core/frame.hpp>
@@ -78,8 +79,10 @@ class RecordingWriter {
   /// Existing frames are not modified. Fails with kNotFound if there is no recording, with
   /// kInvalidOption if it is not complete, with kUnsupported if another program wrote its table,
   /// with kIo while another program writes it, and as parsing its files does.
+  /// resumed_at: index of the first frame of a new stretch (FrameInfo::stretch).
   static Result<RecordingWriter> extend(const std::filesystem::path& folder,
-                                        ColorFileFormat color = ColorFileFormat::kPng);
+                                        ColorFileFormat color = ColorFileFormat::kPng,
+                                        std::optional<std::uint32_t> resumed_at = {});
   RecordingWriter(RecordingWriter&&) noexcept;
   RecordingWriter& operator=(RecordingWriter&&) noexcept;
   /// Leaves the recording as it is, marked incomplete unless finish() was called.

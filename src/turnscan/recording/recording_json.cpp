@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <turnscan/core/units.hpp>
@@ -251,6 +252,16 @@ Result<RecordingDescription> parse_recording_json(std::string_view text) {
     TURNSCAN_ASSIGN(const int count, root.integer("frame_count", 0, 1 << 30));
     out.frame_count = static_cast<std::uint32_t>(count);
   }
+  if (root.has("resumed_at")) {
+    TURNSCAN_ASSIGN(const std::vector<double> indices, root.numbers("resumed_at"));
+    for (const double index : indices) {
+      if (!(index >= 0.0 && index < double(1 << 30)))
+        return fail(ErrorCode::kFormat, "{} holds {}, which is no index of a frame",
+                    root.place_of("resumed_at"), index);
+      out.resumed_at.push_back(static_cast<std::uint32_t>(index));
+    }
+    std::sort(out.resumed_at.begin(), out.resumed_at.end());
+  }
   if (const auto good = check_header(out.header); !good)
     return fail(ErrorCode::kFormat, "{}", good.error().message);
   return out;
@@ -265,6 +276,7 @@ std::string recording_json(const RecordingDescription& description) {
   put_source(header.source, out);
   out["complete"] = description.complete;
   if (description.frame_count) out["frame_count"] = *description.frame_count;
+  if (!description.resumed_at.empty()) out["resumed_at"] = description.resumed_at;
   out["sensors"] = text::OrderedJson::array();
   for (const SensorInfo& sensor : header.sensors) out["sensors"].push_back(sensor_json(sensor));
   if (header.turntable) out["turntable"] = turntable_json(*header.turntable);

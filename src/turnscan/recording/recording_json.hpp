@@ -18,6 +18,7 @@ struct RecordingDescription {
   CaptureSettings capture;
   bool complete = false;
   std::optional<std::uint32_t> frame_count;  ///< when it was last complete
+  std::vector<std::uint32_t> resumed_at;     ///< indices of the frames that begin a new stretch
 };
 
 /// Fails with kUnsupported if the schema is newer, with kFormat if a field is missing or wrong.

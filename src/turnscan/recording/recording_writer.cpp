@@ -178,7 +178,7 @@ struct RecordingWriter::State {
   bool finished = false;
 
   Result<> create_files();
-  Result<> reopen_files();
+  Result<> reopen_files(std::optional<std::uint32_t> resumed_at);
   /// Writes the frame's files and returns its line. May run on several threads at once.
   Result<std::string> write_files(const Frame& frame) const;
   Result<std::string> write_color(const Frame& frame, const std::string& number) const;
@@ -258,7 +258,7 @@ Result<> RecordingWriter::State::create_files() {
 
 /// The recording is marked incomplete with the number of frames that were complete before, which
 /// distinguishes it from one that never was complete.
-Result<> RecordingWriter::State::reopen_files() {
+Result<> RecordingWriter::State::reopen_files(std::optional<std::uint32_t> resumed_at) {
   const fs::path json = folder / "recording.json", csv = folder / "frames.csv";
   TURNSCAN_ASSIGN(const std::string text, read_file(json, kMaxDescriptionBytes));
   TURNSCAN_ASSIGN(description, parse_recording_json(text));
@@ -277,6 +277,7 @@ Result<> RecordingWriter::State::reopen_files() {
   TURNSCAN_TRY(table.reopen(csv, lines.size()));
   description.complete = false;
   description.frame_count = static_cast<std::uint32_t>(indices.size());
+  if (resumed_at) description.resumed_at.push_back(*resumed_at);
   return write_file_atomically(json, recording_json(description));
 }
 
@@ -304,7 +305,7 @@ Result<RecordingWriter> RecordingWriter::create(const fs::path& folder,
   auto state = std::make_unique<State>();
   state->folder = folder;
   state->color = color;
-  state->description = {header, capture, false, std::nullopt};
+  state->description = {header, capture, false, std::nullopt, {}};
   state->description.header.software = fmt::format("turnscan {}", version());
   const auto made = [&]() -> Result<> {
     TURNSCAN_TRY(make_folders(folder, state->made_folders));
@@ -317,11 +318,12 @@ Result<RecordingWriter> RecordingWriter::create(const fs::path& folder,
   return RecordingWriter(std::move(state));
 }
 
-Result<RecordingWriter> RecordingWriter::extend(const fs::path& folder, ColorFileFormat color) {
+Result<RecordingWriter> RecordingWriter::extend(const fs::path& folder, ColorFileFormat color,
+                                                std::optional<std::uint32_t> resumed_at) {
   auto state = std::make_unique<State>();
   state->folder = folder;
   state->color = color;
-  TURNSCAN_TRY(state->reopen_files());
+  TURNSCAN_TRY(state->reopen_files(resumed_at));
   return RecordingWriter(std::move(state));
 }
 
@@ -393,7 +395,12 @@ Result<> write_recording(const fs::path& folder, const FrameSequence& sequence,
   RecordingWriter::State& state = *writer.state_;
   const std::size_t count = sequence.frames().size();
   auto written = [&]() -> Result<> {
-    for (const FrameInfo& info : sequence.frames()) TURNSCAN_TRY(state.claim_index(info));
+    std::uint32_t stretch = 0;
+    for (const FrameInfo& info : sequence.frames()) {
+      TURNSCAN_TRY(state.claim_index(info));
+      if (info.stretch != stretch) state.description.resumed_at.push_back(info.index);
+      stretch = info.stretch;
+    }
     context.begin_phase("write recording", count);
     for (std::size_t begin = 0; begin < count; begin += kBatch) {
       std::vector<std::string> lines(std::min(kBatch, count - begin));

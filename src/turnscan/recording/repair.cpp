@@ -1,6 +1,7 @@
 #include <set>
 #include <system_error>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/folder.hpp>
 #include <turnscan/io/text/json_bytes.hpp>
 #include <turnscan/recording/file_check.hpp>
 #include <turnscan/recording/frames_csv.hpp>
@@ -116,19 +117,21 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   return out;
 }
 
-void remove_leftovers(const fs::path& folder, RepairReport& report) {
+void remove_leftovers_in(const file::Folder& folder, RepairReport& report) {
   std::error_code error;
-  std::vector<fs::path> files;
-  for (const char* name : {"depth", "color", "points"}) {
-    const auto more = files_in(folder / name);
-    files.insert(files.end(), more.begin(), more.end());
+  for (const std::string& name : folder.names()) {
+    const bool left =
+        is_leftover(name) && fs::is_regular_file(fs::symlink_status(folder.anchor() / name, error));
+    if (left && folder.remove(name)) ++report.leftovers;
   }
-  // The recording's own folder may be given as a symbolic link.
-  const auto top = files_in(fs::canonical(folder, error));
-  files.insert(files.end(), top.begin(), top.end());
-  for (const fs::path& file : files) {
-    if (is_leftover(file.filename().string()) && fs::remove(file, error)) ++report.leftovers;
-  }
+}
+
+void remove_leftovers(const fs::path& folder, RepairReport& report) {
+  const auto own = file::Folder::open(folder);
+  if (!own) return;
+  remove_leftovers_in(*own, report);
+  for (const char* name : {"depth", "color", "points"})
+    if (const auto part = own->subfolder(name)) remove_leftovers_in(*part, report);
 }
 
 void count_without_line(const fs::path& folder, const std::set<std::string>& named,

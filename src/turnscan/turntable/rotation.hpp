@@ -19,7 +19,8 @@ struct FramePoses {
 /// with the frame's angle, or with angle = speed * (t - t0) (thesis eq. 3.8), t0 being the time of
 /// the first frame. A speed_rad_s given here takes precedence over recorded angles and speed for
 /// frames that have a time.
-/// Fails with kMissingData, naming the frame and what would help, if none of these is known.
+/// Fails with kMissingData, naming the frame and what would help, if none of these is known; also
+/// for a frame of another stretch than the first one, unless it has an angle and no speed is given.
 Result<FramePoses> frame_poses(const SequenceHeader& header, const std::vector<FrameInfo>& frames,
                                std::optional<double> speed_rad_s);
 
@@ -33,7 +34,8 @@ class FramePoser {
 
  private:
   const SequenceHeader* header_;
-  std::optional<double> speed_rad_s_, t0_;
+  std::optional<double> speed_rad_s_;
+  std::optional<FrameInfo> first_;
   std::vector<std::optional<Pose>> sensors_;
   PoseSource source_ = PoseSource::kPoses;
 };

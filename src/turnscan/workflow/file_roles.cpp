@@ -114,7 +114,8 @@ Result<> check_input_stays(const std::string& input, const std::string& removed)
   for (fs::path path = fs::canonical(input, error); !error; path = path.parent_path()) {
     if (path == folder)
       return fail_at(removed, ErrorCode::kInvalidOption,
-                     "it would be removed, but {} is read from it; choose another name", input);
+                     "it would be removed or changed, but {} is read from it; choose another name",
+                     input);
     if (path == path.parent_path()) break;
   }
   return {};

@@ -69,9 +69,10 @@ Result<> check_output_folder(const std::string& path, bool overwrite_unfinished)
     if (is_unfinished_recording(path)) {
       if (overwrite_unfinished) return check_writable(path, path);
       return fail_at(path, ErrorCode::kAlreadyExists,
-                     "an unfinished recording lies there, whose program was ended; keep what it "
-                     "has with 'turnscan info --repair', or make it again with "
-                     "--overwrite-unfinished, or choose another name");
+                     "an unfinished recording lies there, whose program was ended; go on with it "
+                     "with --resume if a sensor records it, keep what it has with 'turnscan info "
+                     "--repair', make it again with --overwrite-unfinished, or choose another "
+                     "name");
     }
     if (!fs::is_empty(path, error) || error)
       return fail_at(path, ErrorCode::kAlreadyExists,

@@ -25,7 +25,9 @@ TEST(CaptureOutcome, SaysWhatTheFolderHolds) {
   auto outcome = capture_outcome(result, "rec");
   ASSERT_FALSE(outcome);
   EXPECT_EQ(outcome.error().code, ErrorCode::kCancelled);
-  EXPECT_EQ(outcome.error().message, "stopped; rec holds the 7 frames until then and is complete");
+  EXPECT_EQ(outcome.error().message,
+            "stopped; rec holds the 7 frames until then and is complete "
+            "(--resume goes on with it)");
   result.complete = false;
   result.error = Error{ErrorCode::kIo, "disk full; make room", ""};
   outcome = capture_outcome(result, "rec");

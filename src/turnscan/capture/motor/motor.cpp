@@ -264,6 +264,7 @@ Result<MotorStatus> Motor::status() {
   TURNSCAN_ASSIGN(const BoardStatus now, state_->guard(state_->board->status()));
   MotorStatus out;
   out.state = now.state;
+  out.board_rad = now.angle_deg * kRadiansPerDegree * state_->sign();
   out.angle_rad = (now.angle_deg - state_->start_deg) * kRadiansPerDegree * state_->sign();
   return out;
 }

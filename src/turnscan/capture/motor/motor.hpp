@@ -34,8 +34,10 @@ std::string_view name_of(MotorState state);
 
 struct MotorStatus {
   MotorState state = MotorState::kIdle;
-  /// Relative to the start of the board.
+  /// Since the connection was made.
   double angle_rad = std::numeric_limits<double>::quiet_NaN();
+  /// As the board counts, which may have been started before this connection.
+  double board_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A connected motor. Angles and speeds are signed: counter-clockwise seen from above is positive.

@@ -258,9 +258,9 @@ Result<Recorder> Recorder::create(const fs::path& folder, const SequenceHeader& 
 }
 
 Result<Recorder> Recorder::extend(const fs::path& folder, const RecorderOptions& options,
-                                  double expected_bytes) {
+                                  double expected_bytes, std::optional<std::uint32_t> resumed_at) {
   TURNSCAN_TRY(check_room(folder, options, expected_bytes));
-  return of(RecordingWriter::extend(folder, options.color), folder, options);
+  return of(RecordingWriter::extend(folder, options.color, resumed_at), folder, options);
 }
 
 Result<Recorder> Recorder::of(Result<RecordingWriter> writer, const fs::path& folder,

@@ -45,7 +45,8 @@ class Recorder {
   /// Continues a complete recording; see RecordingWriter::extend(), whose errors it returns as
   /// well.
   static Result<Recorder> extend(const std::filesystem::path& folder,
-                                 const RecorderOptions& options, double expected_bytes = 0.0);
+                                 const RecorderOptions& options, double expected_bytes = 0.0,
+                                 std::optional<std::uint32_t> resumed_at = {});
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
   /// Leaves the recording as it is, marked incomplete unless finish() was called. Queued frames are

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <turnscan/capture/recorder/depth_crop.hpp>
 #include <turnscan/capture/session/capture.hpp>
 #include <turnscan/capture/session/capture_options.hpp>
 #include <turnscan/capture/session/turn_counter.hpp>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/stopwatch.hpp>
+#include <turnscan/core/units.hpp>
 #include <turnscan/core/utc_time.hpp>
+#include <turnscan/recording/repair.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 
 namespace turnscan {
@@ -20,6 +23,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kPoll_s = 0.1;
 constexpr double kMaxUnknown_s = 60.0;  ///< of recording while the speed of the table is not known
+constexpr double kBetweenStretches_s = 1.0;  ///< in the times of a source whose clock began anew
+constexpr double kSameTime_s = 1e-6;         ///< of a frame that is given again
+/// Keys of the settings: number of stops in a turn, the board's angle at the first one, how the
+/// recording ended, and that this was too early.
+constexpr const char *kStops = "stops", *kBoardAngle = "board_angle_rad", *kEnded = "ended",
+                     *kEndedEarly = "ended_early";
 constexpr double kBytesPerPixel = 1.2;  ///< of a noisy depth image as PNG, measured
 
 double process_cpu_s() {
@@ -65,10 +74,12 @@ class Session {
         options_(options),
         hooks_(hooks),
         context_(context),
-        turns_(header, speed_for_counting(), wants_turns(), !source.info().live) {}
+        turns_(header, speed_for_counting(), wants_turns(), !source.info().live, context) {}
 
   Result<> prepare() {
+    if (options_.stops.stops) settings_[kStops] = fmt::format("{}", *options_.stops.stops);
     if (options_.add_pass) TURNSCAN_TRY(continue_recording());
+    if (options_.resume) TURNSCAN_TRY(resume_recording());
     if (!options_.crop.enabled) return {};
     Cylinder cylinder;
     cylinder.margin_m = -options_.crop.below_m;
@@ -118,17 +129,21 @@ class Session {
     return options_.limits.turns.value_or(1.0) * kTurn + options_.limits.overlap_rad;
   }
 
-  /// Numbers the new frames after those of the existing passes.
-  Result<> continue_recording() {
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder_));
+  bool has_sensors_of(const Recording& recording) const {
     const auto is_same = [](const SensorInfo& one, const SensorInfo& other) {
       return one.kind == other.kind && one.model == other.model &&
              one.intrinsics.width == other.intrinsics.width &&
              one.intrinsics.height == other.intrinsics.height;
     };
     const auto& sensors = recording.header().sensors;
-    if (!std::equal(sensors.begin(), sensors.end(), header_.sensors.begin(), header_.sensors.end(),
-                    is_same))
+    return std::equal(sensors.begin(), sensors.end(), header_.sensors.begin(),
+                      header_.sensors.end(), is_same);
+  }
+
+  /// Numbers the new frames after those of the existing passes.
+  Result<> continue_recording() {
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder_));
+    if (!has_sensors_of(recording))
       return fail_at(folder_.string(), ErrorCode::kInvalidOption,
                      "its passes were recorded with other sensors; make a recording of its own");
     header_ = recording.header();
@@ -138,6 +153,71 @@ class Session {
       pass_ = std::max(pass_, frame.pass + 1);
     }
     return {};
+  }
+
+  static std::string setting(const CaptureSettings& settings, const std::string& key) {
+    const auto found = settings.find(key);
+    return found == settings.end() ? std::string() : found->second;
+  }
+
+  /// Why the recording cannot be resumed; empty: it can.
+  std::string reason_against(const Recording& recording) const {
+    const CaptureSettings& before = recording.capture_settings();
+    if (before.count(kEnded) > 0 && before.count(kEndedEarly) == 0)
+      return "it is finished, so that there is nothing to go on with; choose another folder";
+    const auto is_of_device = [](const auto& s) { return s.first.starts_with("device"); };
+    CaptureSettings devices, own;
+    std::copy_if(before.begin(), before.end(), std::inserter(devices, devices.end()), is_of_device);
+    std::copy_if(settings_.begin(), settings_.end(), std::inserter(own, own.end()), is_of_device);
+    if (devices != own || !has_sensors_of(recording))
+      return "another device, or one of another image size, recorded it; give that --device, or "
+             "choose another folder";
+    if (setting(before, kStops) != setting(settings_, kStops))
+      return before.count(kStops) == 0
+                 ? std::string("its table turned steadily; leave out --stops")
+                 : fmt::format("its table stood {} times a turn; give --motor and --stops {}",
+                               setting(before, kStops), setting(before, kStops));
+    for (std::size_t i = 0; i < recording.frames().size(); ++i) {
+      const FrameInfo& frame = recording.frames()[i];
+      if (frame.pass != 0)
+        return "a further pass was being recorded; finish it with 'turnscan info --repair'";
+      if (frame.index != i)
+        return "another program numbered its frames; make a recording of its own";
+    }
+    return "";
+  }
+
+  Result<> resume_recording() {
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder_));
+    if (const std::string reason = reason_against(recording); !reason.empty())
+      return fail_at(folder_.string(), ErrorCode::kInvalidOption, "{}", reason);
+    TURNSCAN_TRY(repair_recording(folder_));
+    header_ = recording.header();
+    settings_ = recording.capture_settings();
+    settings_.erase(kEndedEarly);
+    recorded_ = recording.frames();
+    if (options_.stops.stops) first_angle_ = 0.0;
+    if (!source_.info().live || recorded_.empty()) return {};
+    next_index_ = std::uint32_t(recorded_.size());
+    stretch_ = recorded_.back().stretch;
+    if (!options_.stops.stops) {
+      resumed_at_ = next_index_;
+      ++stretch_;
+    }
+    for (const FrameInfo& frame : recorded_)
+      if (std::isfinite(frame.time_s))
+        last_recorded_s_ = std::max(frame.time_s, last_recorded_s_.value_or(frame.time_s));
+    return {};
+  }
+
+  /// Sets the times of a source whose clock began anew after those of the recording.
+  void continue_times(FrameInfo& info) {
+    if (!last_recorded_s_ || !std::isfinite(info.time_s)) return;
+    if (!time_offset_s_)
+      time_offset_s_ = info.time_s > *last_recorded_s_
+                           ? 0.0
+                           : *last_recorded_s_ + kBetweenStretches_s - info.time_s;
+    info.time_s += *time_offset_s_;
   }
 
   // --- taking frames
@@ -152,6 +232,7 @@ class Session {
       if (delivery.kind == Delivery::Kind::kFrame) {
         if (count_ > 0) result_.longest_gap_s = std::max(result_.longest_gap_s, gap);
         last_frame_ = Clock::now();
+        continue_times(delivery.frame.info);
         return std::optional<Frame>(std::move(delivery.frame));
       }
       if (gap > options_.limits.device_timeout_s)
@@ -165,9 +246,9 @@ class Session {
     const double bytes = expected_bytes(header_, source_.info(), options_);
     // A replayed recording began when it was recorded.
     if (source_.info().driver != "replay")
-      settings_[prefix_of_pass() + kStartedAt] = utc_text(utc_now_s());
-    auto recorder = options_.add_pass
-                        ? Recorder::extend(folder_, options_.recorder, bytes)
+      settings_.emplace(prefix_of_pass() + kStartedAt, utc_text(utc_now_s()));
+    auto recorder = options_.add_pass || options_.resume
+                        ? Recorder::extend(folder_, options_.recorder, bytes, resumed_at_)
                         : Recorder::create(folder_, header_, settings_, options_.recorder, bytes);
     refused_at_start_ = !recorder;
     if (!recorder) return tl::unexpected<Error>(std::move(recorder).error());
@@ -185,11 +266,26 @@ class Session {
       if (!first_angle_) first_angle_ = frame.info.angle_rad;
       *frame.info.angle_rad -= *first_angle_;
     }
+    if (resumed_at_) frame.info.angle_rad.reset();  // it counts from another zero
+    frame.info.stretch = stretch_;
     if (!crops_.empty() && !frame.depth.empty()) crops_.at(frame.info.sensor).apply(frame.depth);
+    if (frame.info.index < recorded_.size()) return pass_over(frame);
     if (!source_.info().live) recorder_->wait_for_room();
     if (!hooks_.frame) return recorder_->put(std::move(frame));
     TURNSCAN_TRY(recorder_->put(frame));
     return hooks_.frame(frame);
+  }
+
+  /// A frame that was recorded before this capture was resumed.
+  Result<> pass_over(const Frame& frame) {
+    const FrameInfo& before = recorded_[frame.info.index];
+    const bool timed = std::isfinite(before.time_s) && std::isfinite(frame.info.time_s);
+    if (!source_.info().live && timed && std::abs(frame.info.time_s - before.time_s) > kSameTime_s)
+      return fail_at(folder_.string(), ErrorCode::kInvalidOption,
+                     "its frame {} is of another time than the one that the device gives now; give "
+                     "the options with which the recording was begun",
+                     before.index);
+    return hooks_.frame ? hooks_.frame(frame) : Result<>();
   }
 
   void tell(double fraction) {
@@ -285,15 +381,42 @@ class Session {
     const double turns = options_.limits.turns.value_or(1.0), speed = *options_.speed_rad_s;
     const double step = std::copysign(kTurn / double(stops), speed);
     const int count = static_cast<int>(std::lround(turns * double(stops)));
+    // What is recorded of an incomplete stop is passed over.
+    const int known = static_cast<int>(recorded_.size() / header_.sensors.size());
+    const int first = source_.info().live ? known : 0;
+    if (options_.resume) next_index_ = std::uint32_t(std::size_t(first) * header_.sensors.size());
     last_frame_ = Clock::now();
-    for (int i = 0; i < count; ++i) {
-      if (i > 0) TURNSCAN_TRY(hooks_.motor->rotate(step, std::abs(speed), context_));
+    for (int i = first; i < count; ++i) {
+      if (i == 0) TURNSCAN_TRY(note_board_angle());
+      if (i >= known) TURNSCAN_TRY(turn_to(i, known, step, std::abs(speed)));
       TURNSCAN_TRY(settle());
       TURNSCAN_TRY(record_stop(step * double(i), i / stops));
       tell(double(i + 1) / double(count));
     }
     result_.ended = "as it was meant to";
     return {};
+  }
+
+  Result<> note_board_angle() {
+    TURNSCAN_ASSIGN(const MotorStatus now, hooks_.motor->status());
+    settings_.emplace(kBoardAngle, fmt::format("{}", now.board_rad));
+    return {};
+  }
+
+  /// Turns from the stop before; in a resumed recording from wherever the board says that the table
+  /// stands. A board that was restarted does not know it: the table is taken to stand at the last
+  /// stop that was recorded.
+  Result<> turn_to(int stop, int first_new, double step, double speed) {
+    double angle = stop == 0 ? 0.0 : step;
+    if (options_.resume && stop == first_new) {
+      TURNSCAN_TRY(hooks_.motor->stop());  // it may still be turning, or wait for this
+      TURNSCAN_ASSIGN(const MotorStatus now, hooks_.motor->status());
+      const auto zero = parse_number(setting(settings_, kBoardAngle));
+      const double target = zero.value_or(0.0) + step * double(stop);
+      const bool restarted = now.board_rad == 0.0 && std::abs(target - step) > 0.5 * std::abs(step);
+      if (zero && !restarted) angle = target - now.board_rad;
+    }
+    return angle == 0.0 ? Result<>() : hooks_.motor->rotate(angle, speed, context_);
   }
 
   /// Discards frames taken while the table turned.
@@ -352,7 +475,8 @@ class Session {
                                                                    : result_.error->message;
     CaptureSettings settings = settings_;
     const std::string of_pass = prefix_of_pass();
-    settings[of_pass + "ended"] = result_.ended;
+    settings[of_pass + kEnded] = result_.ended;
+    if (result_.error && !options_.add_pass) settings[kEndedEarly] = "true";
     if (!turns_.found().empty()) settings[of_pass + "turns_counted_by"] = turns_.found();
     recorder_->describe(header_, settings);
     auto finished = recorder_->finish();
@@ -377,6 +501,11 @@ class Session {
   const SourceStatistics before_ = options_.add_pass ? source_.statistics() : SourceStatistics();
   std::uint32_t next_index_ = 0, pass_ = 0;
   std::uint32_t count_ = 0;  // of recorded frames
+  // Of a recording that is resumed: its frames so far, and the first one of a new stretch.
+  std::vector<FrameInfo> recorded_;
+  std::optional<std::uint32_t> resumed_at_;
+  std::uint32_t stretch_ = 0;
+  std::optional<double> last_recorded_s_, time_offset_s_;
   std::optional<double> first_time_, first_angle_;
   Clock::time_point last_frame_ = Clock::now();
 };

@@ -56,6 +56,11 @@ struct CaptureOptions {
   /// The folder contains a complete recording: the object is in another pose, and its frames become
   /// the next pass.
   bool add_pass = false;
+  /// The folder contains a recording that was ended early, with which the capture goes on. A source
+  /// that is not live gives its frames again; those that are recorded are passed over. At stops of
+  /// a live one the next stop follows; a table that turns steadily begins a new stretch
+  /// (FrameInfo::stretch), for which the limits hold anew.
+  bool resume = false;
 };
 
 struct CaptureProgress {
@@ -97,10 +102,12 @@ struct CaptureResult {
 /// empty; frame 0 is the first to arrive. header and settings go into recording.json; frames can be
 /// cropped if header.turntable and its pose are set. However the recording ends, it is completed
 /// with all frames so far. Nothing is created if no frame arrives. With add_pass the recording's
-/// own header and settings are kept, and angles start anew. Fails, without having recorded
+/// own header and settings are kept, and angles start anew; with resume they are kept, too, after
+/// repair_recording(). Fails, without having recorded
 /// anything, with kInvalidOption (contradictory limits, crop without a turntable, a pass of other
-/// sensors), as Recorder::create() does, and to add a pass as Recording::open() and
-/// Recorder::extend() do.
+/// sensors; a recording to resume that is finished, of another device or with other stops), as
+/// Recorder::create() does, and to add a pass or resume as Recording::open(), repair_recording()
+/// and Recorder::extend() do.
 Result<CaptureResult> capture(FrameSource& source, const std::filesystem::path& folder,
                               const SequenceHeader& header, const CaptureSettings& settings,
                               const CaptureOptions& options, const CaptureHooks& hooks,

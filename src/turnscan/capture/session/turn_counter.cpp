@@ -20,8 +20,9 @@ constexpr double kWell_rad = 3.1415926535897932;
 }  // namespace
 
 TurnCounter::TurnCounter(const SequenceHeader& header, std::optional<double> speed_rad_s,
-                         bool find_speed, bool wait)
-    : header_(header),
+                         bool find_speed, bool wait, const RunContext& context)
+    : quiet_(context.quiet()),
+      header_(header),
       speed_(speed_rad_s),
       find_speed_(find_speed && !speed_rad_s),
       wait_(wait),
@@ -32,6 +33,7 @@ TurnCounter::TurnCounter(const SequenceHeader& header, std::optional<double> spe
 }
 
 TurnCounter::~TurnCounter() {
+  quiet_.cancel();
   if (search_.valid()) search_.wait();
 }
 
@@ -71,12 +73,10 @@ void TurnCounter::look_for_speed(const Frame& frame) {
   if (search_.valid() || kept_.size() < 8 || !time_to_look()) return;
   attempt_s_ *= kLater;
   last_search_ = speed_.has_value();
-  search_ = std::async(std::launch::async, [header = header_, kept = kept_] {
+  search_ = std::async(std::launch::async, [header = header_, kept = kept_, quiet = quiet_] {
     process::lower_thread_priority();
     FromMotionOptions options;
     options.use_angles = false;
-    // A separate context: its phases are not shown to the user.
-    const RunContext quiet;
     return calibrate_from_motion(MemoryFrames(header, kept), options, DetectOptions(), quiet);
   });
   if (wait_) take_result();

@@ -18,7 +18,7 @@ class TurnCounter {
   /// wait: frames wait while the speed is estimated, so that the same frames always give the same
   /// end.
   TurnCounter(const SequenceHeader& header, std::optional<double> speed_rad_s, bool find_speed,
-              bool wait);
+              bool wait, const RunContext& context);
   ~TurnCounter();
   TurnCounter(const TurnCounter&) = delete;
   TurnCounter& operator=(const TurnCounter&) = delete;
@@ -40,6 +40,7 @@ class TurnCounter {
   bool time_to_look() const;
   void take_result();
 
+  RunContext quiet_;
   SequenceHeader header_;
   std::optional<double> speed_;
   bool find_speed_, wait_;

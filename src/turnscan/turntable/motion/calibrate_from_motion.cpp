@@ -112,6 +112,14 @@ Result<Calibration> calibrate_from_motion(const FrameSequence& sequence,
                                           const DetectOptions& detect, const RunContext& context) {
   FromMotionOptions checked = options;
   TURNSCAN_TRY(describe(checked).check());
+  const auto& frames = sequence.frames();
+  const bool angles =
+      options.use_angles && std::all_of(frames.begin(), frames.end(),
+                                        [](const FrameInfo& f) { return f.angle_rad.has_value(); });
+  if (!angles && std::any_of(frames.begin(), frames.end(), [&](const FrameInfo& f) {
+        return f.stretch != frames.front().stretch;
+      }))
+    return motion::calibrate_stretches(sequence, options, detect, context);
   if (sequence.header().sensors.size() > 1)
     return motion::calibrate_sensors(sequence, options, detect, context);
   TURNSCAN_ASSIGN(motion::SensorMotion found,

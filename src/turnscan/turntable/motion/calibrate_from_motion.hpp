@@ -29,6 +29,9 @@ OptionTable describe(FromMotionOptions& options);
 /// observe the rotation takes the angles of one that does. Their angles are related by the frames'
 /// times (or recorded angles), their yaws and heights by what they see of the same object: the
 /// poses of sensors 1, 2, ... in the table frame of sensor 0 are in `others`.
+/// Of a recording that was resumed without angles (FrameInfo::stretch) the longest stretch is
+/// calibrated. The others are placed by what they show of the same surface; where this does not
+/// determine the turn in between, or with several sensors, they are `left_out`.
 /// Fails with kTooFewPoints if nothing turns, with kMissingData if the shape does not determine the
 /// speed and none is given, with kInvalidOption, with kLibrary if no start leads to frames that
 /// fit, with kCancelled, and with the errors of reading.

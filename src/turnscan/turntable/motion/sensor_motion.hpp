@@ -25,4 +25,9 @@ Result<Calibration> calibrate_sensors(const FrameSequence& sequence,
                                       const FromMotionOptions& options, const DetectOptions& detect,
                                       const RunContext& context);
 
+/// For a sequence with several stretches (FrameInfo::stretch); see calibrate_from_motion().
+Result<Calibration> calibrate_stretches(const FrameSequence& sequence,
+                                        const FromMotionOptions& options,
+                                        const DetectOptions& detect, const RunContext& context);
+
 }  // namespace turnscan::motion

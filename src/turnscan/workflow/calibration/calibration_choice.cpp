@@ -198,6 +198,7 @@ Calibration with_recorded_table(const TurntableInfo& table, const Calibration& f
   out.speed_found = found.speed_found, out.angles_found = found.angles_found;
   out.angles_rad = found.angles_rad, out.angle_sigma_rad = found.angle_sigma_rad;
   out.slips = found.slips;
+  out.left_out = found.left_out;
   out.start_s = found.start_s;
   return out;
 }
@@ -221,6 +222,8 @@ Result<std::optional<CalibrationChoice>> turned_as_seen(const FrameSequence& seq
   out.note = "the recording does not say how its table turned, so that was found from motion";
   if (const auto speed = found.table.speed_rad_s)
     out.note += fmt::format(": {:.2f} deg/s", *speed * kDegreesPerRadian);
+  if (!found.left_out.empty())
+    for (const std::string& note : found.notes) out.note += "; " + note;
   return out;
 }
 

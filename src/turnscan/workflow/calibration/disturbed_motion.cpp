@@ -61,11 +61,14 @@ void extend(const FrameSequence& recording, const Positions& rest, const Calibra
   };
   const auto turned = [&](std::size_t from, std::size_t to) {
     const double seconds = time_of(to) - time_of(from);
-    if (found.table.speed_rad_s && std::isfinite(seconds))
+    if (found.table.speed_rad_s && std::isfinite(seconds) &&
+        frames[from].stretch == frames[to].stretch)
       return *found.table.speed_rad_s * seconds;
     return before.angles_rad[to] - before.angles_rad[from];
   };
   for (TableSlip& slip : found.slips) slip.first_frame = rest[slip.first_frame];
+  for (std::size_t& i : found.left_out) i = rest[i];
+  found.left_out.insert(found.left_out.end(), before.left_out.begin(), before.left_out.end());
   std::size_t next = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     while (next + 1 < rest.size() && rest[next] < i) ++next;

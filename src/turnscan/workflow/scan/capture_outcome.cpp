@@ -14,9 +14,9 @@ Result<> capture_outcome(const CaptureResult& result, const std::string& folder)
   const char* joint = what.find("; ") == std::string::npos ? "; " : " - ";
   std::string left = "nothing was recorded";
   if (result.recorded)
-    left = fmt::format(
-        "{} holds the {} frames until then and {}", folder, result.recorder.written,
-        result.complete ? "is complete" : "can be finished with 'turnscan info --repair'");
+    left = fmt::format("{} holds the {} frames until then and {}", folder, result.recorder.written,
+                       result.complete ? "is complete (--resume goes on with it)"
+                                       : "can be finished with 'turnscan info --repair'");
   error.message = what + joint + left;
   return tl::unexpected<Error>(std::move(error));
 }

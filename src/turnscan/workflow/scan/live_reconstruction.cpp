@@ -8,8 +8,8 @@ constexpr std::size_t kFramesAtOnce = 16;
 
 }  // namespace
 
-LiveReconstruction::LiveReconstruction(ReconstructionStream stream)
-    : stream_(std::move(stream)), thread_([this] { run(); }) {}
+LiveReconstruction::LiveReconstruction(ReconstructionStream stream, const RunContext& context)
+    : quiet_(context.quiet()), stream_(std::move(stream)), thread_([this] { run(); }) {}
 
 void LiveReconstruction::add(const Frame& frame) {
   const std::lock_guard lock(mutex_);
@@ -44,7 +44,7 @@ void LiveReconstruction::run() {
         waiting_.pop_front();
       }
     }
-    if (added_) added_ = stream_.add(batch);
+    if (added_) added_ = stream_.add(batch, quiet_);
   }
 }
 

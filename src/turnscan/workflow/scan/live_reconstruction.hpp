@@ -11,8 +11,11 @@ namespace turnscan::workflow {
 /// Adds frames to a reconstruction on a separate thread, so that the sensor is not delayed.
 class LiveReconstruction {
  public:
-  explicit LiveReconstruction(ReconstructionStream stream);
-  ~LiveReconstruction() { close(); }
+  LiveReconstruction(ReconstructionStream stream, const RunContext& context);
+  ~LiveReconstruction() {
+    quiet_.cancel();
+    close();
+  }
   LiveReconstruction(const LiveReconstruction&) = delete;
   LiveReconstruction& operator=(const LiveReconstruction&) = delete;
 
@@ -26,6 +29,7 @@ class LiveReconstruction {
   void close();
   void run();
 
+  RunContext quiet_;
   ReconstructionStream stream_;
   Result<> added_;  ///< set by the thread; valid once it has ended
   std::mutex mutex_;

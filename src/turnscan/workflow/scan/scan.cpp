@@ -88,6 +88,7 @@ class ScanRun {
     TURNSCAN_TRY(check_report_files({request_.report, request_.page}));
     TURNSCAN_TRY(check_output_file(request_.advice_picture, ".png"));
     out_.recording = recording_of(request_);
+    if (setup().options.resume) return {};
     return check_output_folder(out_.recording, request_.overwrite_unfinished);
   }
 
@@ -107,8 +108,10 @@ class ScanRun {
     workflow::TableFinder finder(setup(), out_.notes);
     TURNSCAN_ASSIGN(const bool table_known, finder.find(source, context_));
     TURNSCAN_TRY(wait(source));
-    TURNSCAN_TRY(begin_live(table_known));
-    TURNSCAN_TRY(clear_output_folder(out_.recording, request_.overwrite_unfinished));
+    // The frames before a gap have to be placed first.
+    if (!setup().options.resume || !source.info().live) TURNSCAN_TRY(begin_live(table_known));
+    if (!setup().options.resume)
+      TURNSCAN_TRY(clear_output_folder(out_.recording, request_.overwrite_unfinished));
     TURNSCAN_TRY(record(source, motor, setup().options));
     const AfterClock after;
     source.stop();
@@ -199,13 +202,13 @@ class ScanRun {
     if (table_known && table->speed_rad_s) {
       TURNSCAN_ASSIGN(auto stream,
                       ReconstructionStream::create(setup().header, request_.reconstruct));
-      live_ = std::make_unique<LiveReconstruction>(std::move(stream));
+      live_ = std::make_unique<LiveReconstruction>(std::move(stream), context_);
     }
     // Axis, speed and angles have to be found from the motion seen by one sensor.
     const bool speed_known = setup().options.speed_rad_s || (table && table->speed_rad_s);
     if (request_.ahead.share && setup().header.sensors.size() == 1 && !speed_known)
-      ahead_ =
-          std::make_unique<ScanAhead>(out_.recording, request_.reconstruct, *request_.ahead.share);
+      ahead_ = std::make_unique<ScanAhead>(out_.recording, request_.reconstruct,
+                                           *request_.ahead.share, context_);
     return {};
   }
 
@@ -316,6 +319,7 @@ class ScanRun {
     TURNSCAN_TRY(with_hint(wait(source)));
     CaptureOptions options = setup().options;
     options.add_pass = true;
+    options.resume = false;
     TURNSCAN_TRY(with_hint(record(source, motor, options)));
     const AfterClock after;
     source.stop();

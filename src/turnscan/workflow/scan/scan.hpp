@@ -23,7 +23,9 @@ struct AheadOptions {
 OptionTable describe(AheadOptions& options);
 
 struct ScanRequest {
-  CaptureSetup setup;  ///< with devices; its speed is that of reconstruct.merge
+  /// With devices; its speed is that of reconstruct.merge. With options.resume, `recording` names
+  /// the recording to go on with.
+  CaptureSetup setup;
   ReconstructOptions reconstruct;
   AheadOptions ahead;
   std::string mesh;  ///< see write_objects()

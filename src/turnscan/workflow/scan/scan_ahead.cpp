@@ -88,8 +88,10 @@ struct ScanAhead::Parts {
   }
 };
 
-ScanAhead::ScanAhead(std::string recording, const ReconstructOptions& options, double share)
+ScanAhead::ScanAhead(std::string recording, const ReconstructOptions& options, double share,
+                     const RunContext& context)
     : parts_(std::make_unique<Parts>()) {
+  parts_->quiet = context.quiet();
   parts_->folder = std::move(recording);
   parts_->options = options;
   parts_->options.merge.speed_rad_s.reset();  // included in the angles

@@ -20,7 +20,8 @@ class ScanAhead {
  public:
   /// recording: the folder being written, of one sensor. Begins once this share of it, in (0, 1),
   /// exists.
-  ScanAhead(std::string recording, const ReconstructOptions& options, double share);
+  ScanAhead(std::string recording, const ReconstructOptions& options, double share,
+            const RunContext& context);
   ~ScanAhead();  ///< cancels unfinished work
   ScanAhead(const ScanAhead&) = delete;
   ScanAhead& operator=(const ScanAhead&) = delete;

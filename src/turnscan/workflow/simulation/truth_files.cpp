@@ -4,6 +4,7 @@
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/io/file/folder.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/calibration_file.hpp>
 
@@ -100,14 +101,14 @@ Result<> write_files(const fs::path& folder, const VirtualPasses& scan,
 
 Result<> write_truth(const fs::path& folder, const VirtualPasses& scan,
                      const SceneDescription& scene, const std::vector<PlacedObject>& placed) {
-  const fs::path truth = folder / "truth";
-  std::error_code error;
-  fs::create_directory(truth, error);
-  if (error)
-    return fail_at(truth.string(), ErrorCode::kIo, "cannot create the folder: {}", error.message());
-  auto written = write_files(truth, scan, scene, placed);
-  if (!written) fs::remove_all(truth, error);
-  return written;
+  TURNSCAN_ASSIGN(const file::Folder recording, file::Folder::open(folder));
+  TURNSCAN_ASSIGN(const file::Folder truth, recording.make_subfolder("truth"));
+  auto written = write_files(truth.anchor(), scan, scene, placed);
+  if (written) return {};
+  (void)recording.remove("truth");
+  Error error = std::move(written).error();
+  if (!error.path.empty()) error.path = (truth.path() / fs::path(error.path).filename()).string();
+  return tl::unexpected<Error>(std::move(error));
 }
 
 }  // namespace turnscan

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/sequence_views.hpp>
-#include <turnscan/turntable/motion/relative_yaw.hpp>
+#include <turnscan/turntable/motion_joining/relative_yaw.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 
 namespace turnscan::motion {

@@ -5,7 +5,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/turntable/motion/motion_state.hpp>
-#include <turnscan/turntable/motion/relative_yaw.hpp>
+#include <turnscan/turntable/motion_joining/relative_yaw.hpp>
 
 namespace turnscan::motion {
 
