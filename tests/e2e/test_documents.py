@@ -1,4 +1,4 @@
-"""Every example of README.md and docs/*.md works as written.
+"""Every example of README.md and of the pages below docs works as written.
 
 Blocks marked ```sh are run in order, one shell per block, all blocks of a document in one empty
 folder with the program on the PATH. Blocks marked ```sh no-test are left out (installing packages,

@@ -274,7 +274,7 @@ class Meshes(unittest.TestCase):
 
 class Options(unittest.TestCase):
     def test_come_from_the_tables_of_the_command_line(self):
-        reference = (ROOT / "docs" / "reference.md").read_text()
+        reference = (ROOT / "docs" / "reference" / "options.md").read_text()
         for command in ("reconstruct", "calibrate", "simulate", "plan", "evaluate"):
             listed = turnscan.options(command)
             self.assertGreater(len(listed), 5)
@@ -367,10 +367,10 @@ class Wheel(unittest.TestCase):
 
 
 class Documentation(unittest.TestCase):
-    """The examples of docs/python.md run in order, in one folder, as one program."""
+    """The examples of docs/reference/python.md run in order, in one folder, as one program."""
 
     def test_examples_of_the_page_run(self):
-        text = (ROOT / "docs" / "python.md").read_text()
+        text = (ROOT / "docs" / "reference" / "python.md").read_text()
         blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
         self.assertGreater(len(blocks), 3)
         path = os.pathsep.join((os.path.dirname(BIN), os.environ.get("PATH", "")))
