@@ -45,7 +45,7 @@ def pages_outside_the_site(tree):
         return
     listed = {}
     for number, line in enumerate(tree.lines(SITE), 1):
-        if match := re.search(r": (\S+\.md)$", line):
+        if match := re.search(r"(?:: |- )(\S+\.md)$", line):
             listed[match.group(1)] = number
     for path in pages(tree):
         if path not in listed:
