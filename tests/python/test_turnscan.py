@@ -367,18 +367,25 @@ class Wheel(unittest.TestCase):
 
 
 class Documentation(unittest.TestCase):
-    """The examples of docs/reference/python.md run in order, in one folder, as one program."""
+    """The Python examples of each page run in order, in one folder, as one program."""
 
-    def test_examples_of_the_page_run(self):
-        text = (ROOT / "docs" / "reference" / "python.md").read_text()
+    def run_examples(self, *page):
+        text = (ROOT / "docs").joinpath(*page).read_text()
         blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
-        self.assertGreater(len(blocks), 3)
         path = os.pathsep.join((os.path.dirname(BIN), os.environ.get("PATH", "")))
         with tempfile.TemporaryDirectory() as folder:
             result = subprocess.run([sys.executable, "-c", "\n".join(blocks)], cwd=folder,
                                     env={**os.environ, "PATH": path},
                                     text=True, capture_output=True, timeout=300)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return len(blocks)
+
+    def test_examples_of_the_reference_run(self):
+        self.assertGreater(self.run_examples("reference", "python.md"), 3)
+
+    def test_examples_of_how_to_pages_run(self):
+        for page in ("python.md", "own-driver.md"):
+            self.assertGreater(self.run_examples("how-to", page), 0)
 
 
 if __name__ == "__main__":
