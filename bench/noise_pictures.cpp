@@ -1,4 +1,5 @@
-// The picture of docs/noise.md: what a Kinect v2 measures of the doll, minus what it ought to.
+// The picture of docs/reference/noise.md: what a Kinect v2 measures of the doll, minus what it
+// ought to.
 
 #include <fmt/core.h>
 

@@ -42,7 +42,7 @@ def metadata():
             "License: Apache-2.0\n"
             f"Requires-Python: >={major}.{minor},<{major}.{minor + 1}\n"
             "Requires-Dist: numpy\nDescription-Content-Type: text/markdown\n\n"
-            + (ROOT / "docs" / "python.md").read_text())
+            + (ROOT / "docs" / "reference" / "python.md").read_text())
 
 
 def wheel_text():

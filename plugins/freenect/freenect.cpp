@@ -103,9 +103,10 @@ std::vector<std::string> serials_of(freenect_context* context) {
   };
   // The numbers are libusb's.
   if (ends_with(" -3"))
-    throw Failure{TURNSCAN_DENIED,
-                  "this user may not open the Kinect; install the udev rule of docs/devices.md and "
-                  "plug it in again"};
+    throw Failure{
+        TURNSCAN_DENIED,
+        "this user may not open the Kinect; install the udev rule of docs/reference/devices.md and "
+        "plug it in again"};
   if (ends_with(" -6"))
     throw Failure{TURNSCAN_BUSY,
                   "another program or a kernel driver (gspca_kinect) uses the Kinect; close that "

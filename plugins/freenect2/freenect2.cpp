@@ -74,9 +74,10 @@ turnscan_device::turnscan_device(const std::string& address, const turnscan_para
                                           address + "; 'turnscan devices' lists them"};
   device_ = library.openDevice(serial_);
   if (device_ == nullptr)
-    throw Failure{TURNSCAN_BUSY,
-                  "the Kinect v2 cannot be opened: another program uses it, or this user may not "
-                  "open it; close that program, or install the udev rule of docs/devices.md"};
+    throw Failure{
+        TURNSCAN_BUSY,
+        "the Kinect v2 cannot be opened: another program uses it, or this user may not "
+        "open it; close that program, or install the udev rule of docs/reference/devices.md"};
   listener_ = std::make_unique<libfreenect2::SyncMultiFrameListener>(
       with_color_ ? libfreenect2::Frame::Color | libfreenect2::Frame::Depth
                   : static_cast<unsigned>(libfreenect2::Frame::Depth));

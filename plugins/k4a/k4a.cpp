@@ -117,9 +117,10 @@ turnscan_device::turnscan_device(const std::string& address, const turnscan_para
     k4a_device_close(device);
   }
   if (refused)
-    throw Failure{TURNSCAN_BUSY,
-                  "the Azure Kinect cannot be opened: another program uses it, or this user may "
-                  "not open it; close that program, or install the udev rule of docs/devices.md"};
+    throw Failure{
+        TURNSCAN_BUSY,
+        "the Azure Kinect cannot be opened: another program uses it, or this user may "
+        "not open it; close that program, or install the udev rule of docs/reference/devices.md"};
   throw Failure{TURNSCAN_NOT_FOUND, "there is no Azure Kinect with the number or serial number " +
                                         address + "; 'turnscan devices' lists them"};
 }

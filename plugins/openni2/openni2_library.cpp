@@ -33,7 +33,7 @@ Failure open_failure(const std::string& why) {
   if (says(why, {"ermission", "ccess denied", "ACCESS", "Failed to open the USB device"}))
     return {TURNSCAN_DENIED,
             "this user may not open the sensor (" + why +
-                "); install the udev rule of docs/devices.md and plug it in again"};
+                "); install the udev rule of docs/reference/devices.md and plug it in again"};
   if (says(why, {"busy", "BUSY", "in use", "already open", "Failed to set USB interface"}))
     return {TURNSCAN_BUSY, "another program uses the sensor (" + why + "); close that program"};
   if (says(why, {"disconnected", "NO_DEVICE", "USB device not found"}))

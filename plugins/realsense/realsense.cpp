@@ -18,7 +18,7 @@ bool says(const std::string& text, std::initializer_list<const char*> words) {
   const std::string why = error.what();
   if (says(why, {"ermission", "ccess"}))
     throw Failure{TURNSCAN_DENIED, "this user may not open the RealSense (" + why +
-                                       "); install the udev rule of docs/devices.md"};
+                                       "); install the udev rule of docs/reference/devices.md"};
   if (says(why, {"busy", "BUSY", "in use"}))
     throw Failure{TURNSCAN_BUSY,
                   "another program uses the RealSense (" + why + "); close that program"};

@@ -1,6 +1,6 @@
 #pragma once
-// Everything that turnscan offers to a program. docs/library.md has a table of the headers, and
-// examples/ short programs.
+// Everything that turnscan offers to a program. docs/reference/library.md has a table of the
+// headers, and examples/ short programs.
 
 #include <turnscan/api/batch.hpp>
 #include <turnscan/api/calibrate.hpp>

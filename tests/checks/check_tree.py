@@ -2,7 +2,7 @@
 """Checks of the source tree that no compiler makes. Usage: check_tree.py [ROOT]
 
 Each rule is a function that takes a Tree and yields (path, line number, what is wrong). The files
-check_tree_test.py and house_test.py show each of them going red on a bad sample.
+check_tree_test.py, house_test.py and manual_test.py show each of them going red on a bad sample.
 """
 
 import os
@@ -13,6 +13,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import drawing  # noqa: E402  (needs the path above)
 import house  # noqa: E402
+import manual  # noqa: E402
 from tree import Tree  # noqa: E402
 
 # Header pattern, folders that may include it, whether an installed header may too.
@@ -186,7 +187,7 @@ def oversized_files(tree):
             yield path, 1, f"{size} bytes; the repository holds no file of more than 1 MB"
 
 
-RULES = house.RULES + [drawing.stale_drawing, drawing.rooms_without_a_word] + [
+RULES = house.RULES + manual.RULES + [drawing.stale_drawing, drawing.rooms_without_a_word] + [
     libraries_out_of_place, numbers_by_locale, globbed_sources, machine_flags,
     paths_of_the_top_level, unlisted_files, machine_paths_and_hosts, broken_links,
     documents_name_what_is_there, oversized_files]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Shows that each rule of check_tree.py (house_test.py: of house.py) is silent on a good sample and speaks on a bad one."""
+"""Shows that each rule of check_tree.py is silent on a good sample and speaks on a bad one; house_test.py
+and manual_test.py show it of house.py and manual.py."""
 
 import os
 import sys
@@ -120,11 +121,11 @@ class Rules(RuleTest):
     def test_every_rule_has_spoken(self):
         folder = os.path.dirname(os.path.abspath(__file__))
         text = ""
-        for name in ("check_tree_test.py", "house_test.py"):
+        for name in ("check_tree_test.py", "house_test.py", "manual_test.py"):
             with open(os.path.join(folder, name), encoding="utf-8") as file:
                 text += file.read()
         for rule in check_tree.RULES:
-            self.assertRegex(text, rf"(check_tree|house|drawing)[.]{rule.__name__}\b")
+            self.assertRegex(text, rf"(check_tree|house|drawing|manual)[.]{rule.__name__}\b")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Rules of the house: floors, rooms, and who may include which header (docs/architecture.md)."""
+"""Rules of the house: floors, rooms, and who may include which header. docs/reference/architecture.md
+explains them."""
 
 import posixpath
 import re

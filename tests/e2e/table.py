@@ -1,4 +1,4 @@
-"""A turntable's board behind a pseudo-terminal (the text protocol of docs/motor.md)."""
+"""A turntable's board behind a pseudo-terminal (the text protocol of docs/reference/motor.md)."""
 
 import os
 import pty

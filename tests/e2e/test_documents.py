@@ -1,4 +1,4 @@
-"""Every example of README.md and docs/*.md works as written.
+"""Every example of README.md and of the pages below docs works as written.
 
 Blocks marked ```sh are run in order, one shell per block, all blocks of a document in one empty
 folder with the program on the PATH. Blocks marked ```sh no-test are left out (installing packages,
@@ -27,7 +27,8 @@ class Documents(harness.TestCase):
         bin_folder = self.dir / ".bin"
         bin_folder.mkdir()
         (bin_folder / "turnscan").symlink_to(pathlib.Path(BIN).resolve())
-        env = {**os.environ, "PATH": f"{bin_folder}:{os.environ['PATH']}"}
+        env = {**os.environ, "PATH": f"{bin_folder}:{os.environ['PATH']}",
+               "XDG_STATE_HOME": str(self.dir / ".state")}  # a scan keeps its calibration there
         for body in examples(path.read_text()):
             result = subprocess.run(["sh", "-e", "-c", body], cwd=self.dir, env=env, text=True,
                                     capture_output=True, stdin=subprocess.DEVNULL, timeout=900)

@@ -3,8 +3,8 @@
 After each: the program ended by itself with one sentence (or, for want of memory in a noexcept function of
 the C++ library, by std::terminate); each output is the old one whole or the
 new one whole; a recording opens with every frame that its table acknowledges; nothing half-written
-lies about. With --table the table in docs/reliability.md is written anew. FAULTS_FULL=1 tries every point, otherwise up to FAULTS_POINTS of a kind of calls
-(default 9; four times as many allocations), spread evenly. Prints the number of points tried. See docs/reliability.md.
+lies about. With --table the table in docs/reference/reliability.md is written anew. FAULTS_FULL=1 tries every point, otherwise up to FAULTS_POINTS of a kind of calls
+(default 9; four times as many allocations), spread evenly. Prints the number of points tried. See docs/reference/reliability.md.
 """
 
 import json

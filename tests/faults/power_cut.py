@@ -3,7 +3,7 @@
 What `turnscan capture` does to files is logged (fault_shim.cpp), then played back up to each
 operation. Data that were not synced by then are lost in three ways: all of them, their second half,
 or replaced by zeros. Each time the recording must open, or not be there yet; where nothing unsynced is
-lost, with every frame whose line was written. See docs/reliability.md.
+lost, with every frame whose line was written. See docs/reference/reliability.md.
 """
 
 import os

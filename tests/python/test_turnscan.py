@@ -274,7 +274,7 @@ class Meshes(unittest.TestCase):
 
 class Options(unittest.TestCase):
     def test_come_from_the_tables_of_the_command_line(self):
-        reference = (ROOT / "docs" / "reference.md").read_text()
+        reference = (ROOT / "docs" / "reference" / "options.md").read_text()
         for command in ("reconstruct", "calibrate", "simulate", "plan", "evaluate"):
             listed = turnscan.options(command)
             self.assertGreater(len(listed), 5)
@@ -367,18 +367,25 @@ class Wheel(unittest.TestCase):
 
 
 class Documentation(unittest.TestCase):
-    """The examples of docs/python.md run in order, in one folder, as one program."""
+    """The Python examples of each page run in order, in one folder, as one program."""
 
-    def test_examples_of_the_page_run(self):
-        text = (ROOT / "docs" / "python.md").read_text()
+    def run_examples(self, *page):
+        text = (ROOT / "docs").joinpath(*page).read_text()
         blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
-        self.assertGreater(len(blocks), 3)
         path = os.pathsep.join((os.path.dirname(BIN), os.environ.get("PATH", "")))
         with tempfile.TemporaryDirectory() as folder:
             result = subprocess.run([sys.executable, "-c", "\n".join(blocks)], cwd=folder,
                                     env={**os.environ, "PATH": path},
                                     text=True, capture_output=True, timeout=300)
             self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        return len(blocks)
+
+    def test_examples_of_the_reference_run(self):
+        self.assertGreater(self.run_examples("reference", "python.md"), 3)
+
+    def test_examples_of_how_to_pages_run(self):
+        for page in ("python.md", "own-driver.md"):
+            self.assertGreater(self.run_examples("how-to", page), 0)
 
 
 if __name__ == "__main__":

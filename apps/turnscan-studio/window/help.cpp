@@ -105,7 +105,7 @@ QString manual_file() {
     folders << at.filePath("../docs") << at.filePath("../doc/turnscan/docs");
   }
   for (const QString& folder : folders) {
-    const QString file = QDir(folder).filePath("studio.md");
+    const QString file = QDir(folder).filePath("reference/studio.md");
     if (QFileInfo::exists(file)) return QFileInfo(file).canonicalFilePath();
   }
   return {};

@@ -15,7 +15,7 @@ struct KeyLine {
 std::vector<KeyLine> keys_of(const MainWindow& window);
 void show_keys(MainWindow& window);
 
-/// docs/studio.md as shipped with the program; empty if it is not installed.
+/// docs/reference/studio.md as shipped with the program; empty if it is not installed.
 QString manual_file();
 void show_manual(MainWindow& window);
 

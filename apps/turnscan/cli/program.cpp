@@ -130,7 +130,7 @@ std::string_view advice_for(const Error& error) {
     case ErrorCode::kDeviceLost:
       return "check the cable and the power supply";
     case ErrorCode::kNoPermission:
-      return "let your user open it (docs/devices.md says how)";
+      return "let your user open it (docs/reference/devices.md says how)";
     default:
       return "try other options";
   }
@@ -306,7 +306,8 @@ void Program::add_reference() {
     const Program& program_;
     std::string format_ = "markdown";
   };
-  add("reference", "Print the reference page of all commands and options (docs/reference.md)",
+  add("reference",
+      "Print the reference page of all commands and options (docs/reference/options.md)",
       std::make_unique<ReferenceCommand>(*this));
 }
 

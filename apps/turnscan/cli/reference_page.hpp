@@ -20,7 +20,8 @@ struct FileReference {
   std::vector<ArgumentGroup> groups;  ///< see keys_of(); without a name: top-level keys
 };
 
-/// docs/reference.md: every command with its arguments and options, then the files, as Markdown.
+/// docs/reference/options.md: every command with its arguments and options, then the files, as
+/// Markdown.
 std::string reference_page(const std::vector<CommandReference>& commands,
                            const std::vector<FileReference>& files);
 

@@ -15,9 +15,10 @@ namespace {
 class CaptureCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.required_repeatable("--device", "URI", setup_.devices,
-                             "Sensor to record from, e.g. virtual:doll (see docs/capture.md). May "
-                             "be given several times, for one recording of all of them");
+    line.required_repeatable(
+        "--device", "URI", setup_.devices,
+        "Sensor to record from, e.g. virtual:doll (see docs/reference/capture.md). May "
+        "be given several times, for one recording of all of them");
     line.option("-o,--out", "RECORDING", out_,
                 "Folder to create for the recording; if it exists, it must be empty");
     line.option("--resume", "RECORDING", resume_, kResumeHelp);

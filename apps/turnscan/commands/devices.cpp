@@ -59,8 +59,9 @@ class DevicesCommand : public Command {
     for (const DriverState& driver : drivers)
       if (!driver.error.empty()) session.print("{}: {}\n", driver.name, driver.error);
     if (drivers.empty())
-      session.print("No drivers are installed in {}; docs/devices.md says how to build them\n",
-                    fmt::join(folders(), ", "));
+      session.print(
+          "No drivers are installed in {}; docs/reference/devices.md says how to build them\n",
+          fmt::join(folders(), ", "));
     if (!json_.empty()) session.print("Wrote {}\n", json_);
     return {};
   }

@@ -33,9 +33,10 @@ OptionTable describe(PassCount& count) {
 class ScanCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.required_repeatable("--device", "URI", request_.setup.devices,
-                             "Sensor to scan with, e.g. virtual:doll (see docs/capture.md). May be "
-                             "given several times: one mesh from all of them");
+    line.required_repeatable(
+        "--device", "URI", request_.setup.devices,
+        "Sensor to scan with, e.g. virtual:doll (see docs/reference/capture.md). May be "
+        "given several times: one mesh from all of them");
     line.required_option("-o,--out", "MESH", request_.mesh,
                          "Mesh to write: .ply, .obj or .glb in metres, .stl or .3mf in mm");
     line.option("--recording", "FOLDER", request_.recording,

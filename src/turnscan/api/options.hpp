@@ -1,6 +1,6 @@
 #pragma once
 // Options by name. The names and values are those of the command line, without the dashes, and of
-// its configuration files; docs/reference.md lists them.
+// its configuration files; docs/reference/options.md lists them.
 
 #include <optional>
 #include <string>

@@ -10,8 +10,8 @@
 namespace turnscan {
 
 /// Looks for the placements of sensors, and for the poses of the object, with which a scan covers
-/// most of its surface; docs/plan.md describes the model. Returns JSON text, whose fields that page
-/// lists: the plans, the one that covers most first.
+/// most of its surface; docs/reference/plan.md describes the model. Returns JSON text, whose fields
+/// that page lists: the plans, the one that covers most first.
 ///
 /// objects: mesh files or "builtin:NAME", at least one; what is to be scanned, or stands for it.
 /// The options are those of `turnscan plan`. `scanner` is repeatable, and needed at least once:

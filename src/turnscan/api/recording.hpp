@@ -22,8 +22,8 @@ struct OpenedFrames {
 };
 
 /// Opens the folder of a recording, its recording.json, or a file or folder of another program
-/// (docs/importing.md lists the layouts). The options are those of `turnscan import`, and apply to
-/// data of other programs only.
+/// (docs/reference/importing.md lists the layouts). The options are those of `turnscan import`, and
+/// apply to data of other programs only.
 ///
 /// Fails with kNotFound (nothing has that path), kFormat (damaged), kUnsupported (unknown layout or
 /// newer version), kMissingData (an option is needed; the message names it), kInvalidOption (also

@@ -1,7 +1,7 @@
 #pragma once
 // Parameters have one source. Beside each options struct stands a function `describe` that lists
 // its fields: name, range, unit, help. The command line, the TOML file, the desktop program's
-// fields and docs/reference.md are made from that list.
+// fields and docs/reference/options.md are made from that list.
 
 #include <functional>
 #include <optional>

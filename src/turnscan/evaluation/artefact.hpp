@@ -11,8 +11,8 @@
 // the points may be rejected: the floor(0.003 N) points with the largest |d_i| (|h_i|) are
 // rejected, the fit is repeated with the others, and so on until the same points are rejected. ISO
 // 10360-13 (2021) excludes 5 % of the points in the same way; form95_m is that range.
-// docs/evaluation.md lists the parts of the guideline's procedure that are left to the user:
-// artefact, number of positions, acceptance.
+// docs/reference/evaluation.md lists the parts of the guideline's procedure that are left to the
+// user: artefact, number of positions, acceptance.
 
 #include <optional>
 #include <string>
@@ -93,7 +93,7 @@ Result<ArtefactFigures> measure_artefact(const PointCloud& cloud, const Artefact
 /// surface, with normals. Fails as sample_surface() does.
 Result<PointCloud> artefact_points(const TriangleMesh& mesh, const RunContext& context);
 
-/// JSON text with a final newline; keys carry units. docs/evaluation.md lists them.
+/// JSON text with a final newline; keys carry units. docs/reference/evaluation.md lists them.
 std::string to_json(const ArtefactFigures& figures);
 
 }  // namespace turnscan

@@ -1,6 +1,6 @@
 #pragma once
 // Comparison of a mesh with a reference: accuracy, completeness, and invented surface.
-// docs/evaluation.md has the definitions.
+// docs/reference/evaluation.md has the definitions.
 
 #include <cstdint>
 #include <functional>

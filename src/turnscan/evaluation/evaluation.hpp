@@ -1,5 +1,6 @@
 #pragma once
-// The figures of a comparison between a mesh and a reference. docs/evaluation.md defines them.
+// The figures of a comparison between a mesh and a reference. docs/reference/evaluation.md defines
+// them.
 
 #include <cstddef>
 #include <optional>
@@ -66,8 +67,8 @@ struct Evaluation {
   double alignment_rms_m = 0.0;
 };
 
-/// JSON text with a final newline. Keys carry their units ("median_m"); docs/evaluation.md lists
-/// them.
+/// JSON text with a final newline. Keys carry their units ("median_m");
+/// docs/reference/evaluation.md lists them.
 std::string to_json(const Evaluation& evaluation);
 
 }  // namespace turnscan

@@ -329,7 +329,7 @@ Result<Calibration> read_calibration(const std::filesystem::path& path) {
   auto calibration = parse_calibration(text);
   if (!calibration)
     return fail_at(path.string(), calibration.error().code,
-                   "not a calibration: {}; write it as in docs/calibration.md",
+                   "not a calibration: {}; write it as in docs/reference/calibration.md",
                    calibration.error().message);
   return calibration;
 }

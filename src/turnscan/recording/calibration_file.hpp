@@ -1,5 +1,5 @@
 #pragma once
-// Calibrations as human-readable files (docs/calibration.md lists the fields).
+// Calibrations as human-readable files (docs/reference/calibration.md lists the fields).
 
 #include <filesystem>
 #include <turnscan/core/calibration.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 // A recording on disk: recording.json, frames.csv and one file per image or scan.
-// docs/recording-format.md describes every field.
+// docs/reference/recording-format.md describes every field.
 
 #include <filesystem>
 #include <map>

@@ -1,7 +1,8 @@
 #pragma once
 // How a depth sensor errs: the numbers (the noise section of a scanner's file) and the formulae, as
-// pure functions. docs/noise.md names the source of each. z is the depth along the optical axis in
-// metres, incidence the angle between the surface's normal and the ray in [0, pi/2).
+// pure functions. docs/reference/noise.md names the source of each. z is the depth along the
+// optical axis in metres, incidence the angle between the surface's normal and the ray in [0,
+// pi/2).
 
 #include <turnscan/core/option_table.hpp>
 

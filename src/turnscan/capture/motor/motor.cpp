@@ -105,7 +105,8 @@ OptionTable describe(MotorOptions& o) {
   OptionTable table;
   table
       .choice("motor-protocol", o.protocol, {"auto", "turnscan", "grbl"},
-              "Protocol of the turntable's board: the text protocol of docs/motor.md, or G-code as "
+              "Protocol of the turntable's board: the text protocol of docs/reference/motor.md, or "
+              "G-code as "
               "GRBL speaks it; auto: recognised from its greeting")
       .number("motor-baud", o.baud, {300, 4000000}, "Baud rate of the serial port")
       .number("motor-timeout", o.timeout_s, Quantity::kTime, {0.02, 60.0},

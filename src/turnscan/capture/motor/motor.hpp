@@ -1,6 +1,6 @@
 #pragma once
-// A turntable driven by this computer over a serial port. docs/motor.md describes boards and
-// protocols.
+// A turntable driven by this computer over a serial port. docs/reference/motor.md describes boards
+// and protocols.
 
 #include <limits>
 #include <memory>
@@ -12,7 +12,7 @@ namespace turnscan {
 
 enum class MotorProtocol {
   kAuto,      ///< detected from the board's greeting
-  kTurnscan,  ///< the text protocol of docs/motor.md
+  kTurnscan,  ///< the text protocol of docs/reference/motor.md
   kGrbl       ///< G-code as understood by GRBL
 };
 

@@ -1,4 +1,4 @@
-// The text protocol of docs/motor.md: numbered lines with a checksum.
+// The text protocol of docs/reference/motor.md: numbered lines with a checksum.
 
 #include <algorithm>
 #include <charconv>

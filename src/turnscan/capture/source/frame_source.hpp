@@ -1,6 +1,6 @@
 #pragma once
 // Where live frames come from: a device behind its driver, a recording played back, or a virtual
-// sensor. docs/devices.md describes the sources and what their URIs accept.
+// sensor. docs/reference/devices.md describes the sources and what their URIs accept.
 
 #include <cstdint>
 #include <memory>

@@ -2,7 +2,7 @@
 #define TURNSCAN_CAPTURE_PLUGIN_H
 /* What a driver of depth sensors offers to turnscan: a shared library named turnscan-NAME.so in a
  * folder of plug-ins, with one function, turnscan_plugin_entry. Plain C, so that a plug-in needs no
- * library of turnscan and any compiler. docs/devices.md tells how to write one.
+ * library of turnscan and any compiler. docs/reference/devices.md tells how to write one.
  *
  * Rules: all text is UTF-8 and ends with a zero. A function that can fail returns one of
  * turnscan_status; when that is negative it has filled the error. turnscan calls the functions of

@@ -61,7 +61,7 @@ std::string load_failure(const std::string& scheme, std::string why) {
     return fmt::format("its library {} is not installed; {}", why.substr(0, at),
                        package != packages().end()
                            ? "install Debian's package " + package->second
-                           : std::string("docs/devices.md says where it comes from"));
+                           : std::string("docs/reference/devices.md says where it comes from"));
   }
   std::replace(why.begin(), why.end(), ';', ',');
   return fmt::format("it cannot be loaded ({}); build it against the libraries of this machine",
@@ -126,7 +126,8 @@ Result<const turnscan_plugin*> load_plugin(const std::string& scheme) {
   std::string known = "virtual:, replay:";
   for (const auto& [name, path] : files.by_name) known += ", " + name + ":";
   return fail(ErrorCode::kNotFound,
-              "device '{}:': there is no driver of that name; use one of {} (docs/devices.md says "
+              "device '{}:': there is no driver of that name; use one of {} "
+              "(docs/reference/devices.md says "
               "how others are added)",
               scheme, known);
 }

@@ -119,7 +119,7 @@ tl::unexpected<Error> refusal(VirtualFault::Kind kind) {
     default:
       return fail(ErrorCode::kNoPermission,
                   "virtual: this user may not open the device; install the udev rule of "
-                  "docs/devices.md and plug the device in again");
+                  "docs/reference/devices.md and plug the device in again");
   }
 }
 

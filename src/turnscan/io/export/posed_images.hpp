@@ -1,5 +1,5 @@
 #pragma once
-// Images with their cameras and poses, written as other programs read them. docs/exporting.md
+// Images with their cameras and poses, written as other programs read them. docs/reference/exporting.md
 // describes the layouts.
 
 #include <cstdint>

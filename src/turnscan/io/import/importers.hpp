@@ -1,7 +1,7 @@
 #pragma once
-// Data sets of other programs as frame sequences. docs/importing.md describes the layouts. Units
-// and depth scales come from the format's definition or from the options; if neither gives them,
-// the import fails with a message that asks for them.
+// Data sets of other programs as frame sequences. docs/reference/importing.md describes the
+// layouts. Units and depth scales come from the format's definition or from the options; if neither
+// gives them, the import fails with a message that asks for them.
 
 #include <filesystem>
 #include <memory>

@@ -1,4 +1,4 @@
-// Imports depth images described by one JSON file; docs/importing.md lists its fields.
+// Imports depth images described by one JSON file; docs/reference/importing.md lists its fields.
 
 #include <algorithm>
 #include <charconv>

@@ -17,7 +17,7 @@ namespace turnscan::outliers {
 /// than two points, or rounding that makes the variance of equal distances negative). With n <= k
 /// points the sum over the n - 1 others is still divided by k. These are exactly the points that
 /// pcl::StatisticalOutlierRemoval (1.13) keeps of the same cloud, unorganised; see
-/// docs/stages/outliers.md for the one reservation. Runs on all cores.
+/// docs/reference/stages/outliers.md for the one reservation. Runs on all cores.
 ///
 /// All ones when options.enabled is false. Fails with kInvalidOption when an option is out of
 /// range, kFormat when a coordinate is not finite or beyond 1e9 m, and kCancelled.

@@ -26,7 +26,7 @@ struct ErrorScale {
 /// filter also the mixing where little is seen (at outlines), and a share of the distance between
 /// pixels at walls thinner than two of them, whose measurements agree with each other on a wrong
 /// surface. Elsewhere a share of the distance along the surface to measured surface. The shares are
-/// fitted to simulated scans (bench/expected_error; docs/report.md).
+/// fitted to simulated scans (bench/expected_error; docs/reference/report.md).
 std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<float>& support,
                                    const ErrorScale& scale);
 

@@ -16,7 +16,7 @@ namespace turnscan::planning {
 /// within 6 mm, which is large on thin parts, where smoothing against noise loses more of the
 /// surface. The form is that of reconstruction/quality (averaged noise, a floor that frames do not
 /// average out, blur). The factors are fitted to the median errors of 82 simulated scans and their
-/// reconstructions (bench/plan_bench model and choices; docs/plan.md tells how well they
+/// reconstructions (bench/plan_bench model and choices; docs/reference/plan.md tells how well they
 /// generalise, also to other objects).
 struct ErrorModel {
   static constexpr std::size_t kParts = 5;

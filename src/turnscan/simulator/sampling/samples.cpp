@@ -48,7 +48,7 @@ struct Sheet {
 };
 
 /// The cost of drawing is per triangle, that of rays per pixel: drawing pays up to this ratio
-/// (measured, docs/performance.md).
+/// (measured, docs/research/performance.md).
 constexpr double kTrianglesPerPixel = 30.0;
 constexpr std::uint64_t kMaxSlots = 0xffffff00u;
 

@@ -11,7 +11,7 @@ namespace turnscan::batch {
 namespace {
 
 // Measured with Kinect v2, D435 and Azure Kinect, 40 to 400 frames, all methods: 80 to 222 MB; this
-// estimate is 1.3 to 2.2 times as much (docs/scale.md).
+// estimate is 1.3 to 2.2 times as much (docs/research/scale.md).
 constexpr double kProgramBytes = 72e6;
 constexpr double kBytesPerPixel = 1.5;     // of all frames, kept by a method
 constexpr double kBytesPerDecoded = 40.0;  // of one frame, while it is decoded

@@ -25,7 +25,7 @@ Result<CalibrationWay> calibration_way(bool points, bool detect, bool from_motio
 
 struct CalibrateRequest {
   CalibrationWay way = CalibrationWay::kAuto;
-  std::string points;  ///< CSV file of the picked points, see docs/calibration.md
+  std::string points;  ///< CSV file of the picked points, see docs/reference/calibration.md
   /// Folders with iai_kinect2 calibrations (see read_iai_kinect2) for sensors 0, 1, ...
   std::vector<std::string> iai_folders;
   /// Estimate the offset of each sensor's depth from ball.diameter_m, or else from detect.radius_m.

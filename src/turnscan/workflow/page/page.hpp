@@ -1,6 +1,6 @@
 #pragma once
 // A report as one HTML file that works offline: 3D model, pictures, plots, measurements and
-// parameters (docs/report.md).
+// parameters (docs/reference/report.md).
 //
 //   PageInput input = page_input(run, report);
 //   TURNSCAN_ASSIGN(const ReportPage page, make_page(input, context));

@@ -1,6 +1,6 @@
 #pragma once
 // Plans the sensors, their positions and the object's pose in each pass, so that most of its
-// surface is measured well enough. docs/plan.md describes the model.
+// surface is measured well enough. docs/reference/plan.md describes the model.
 //
 //   PlanRequest request;
 //   request.objects = {"vase.ply"};

@@ -36,7 +36,7 @@ Result<> compare_object(const ObjectResult& object, const std::vector<MeshFrames
 /// the platter). red: less than 0.84, or more than 0.25; or the mesh is not closed although an open
 /// one was not requested; or a disturbance of the recording was not corrected, or it holds what
 /// cannot be. amber: else. Objects without expected errors (point-based methods) are amber at best.
-/// docs/report.md lists the sentences and how they were validated.
+/// docs/reference/report.md lists the sentences and how they were validated.
 void judge_objects(Reconstruction& reconstruction, const ScanKnowledge& known);
 
 }  // namespace turnscan
