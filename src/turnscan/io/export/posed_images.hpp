@@ -1,6 +1,6 @@
 #pragma once
-// Images with their cameras and poses, written as other programs read them. docs/reference/exporting.md
-// describes the layouts.
+// Images with their cameras and poses, written as other programs read them.
+// docs/reference/exporting.md describes the layouts.
 
 #include <cstdint>
 #include <filesystem>
