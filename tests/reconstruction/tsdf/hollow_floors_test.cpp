@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <turnscan/reconstruction/tsdf/platter_columns.hpp>
-#include <turnscan/reconstruction/tsdf/volume_samples.hpp>
+
+#include "tests/reconstruction/tsdf/volume_on_platter.hpp"
 
 namespace turnscan::tsdf {
 namespace {
 
-constexpr int kLowestLayer = 5;  // layers of 1 mm; the first lies half of one below y = 0
+using testing::kFloor;
+
 constexpr double kWall_m = 0.004, kOuter_m = 0.018, kBottom_m = 0.006;
 
 /// A cup of 18 mm radius with walls of 4 mm and a floor 6 mm thick; without: a tube.
@@ -20,26 +22,12 @@ double cup(const Vec3d& p, bool with_floor) {
 /// What rays see of a cup above the margin, beside its wall: inside down to a cone that ends
 /// `unseen_m` above the platter in the middle, and everything outside.
 Volume seen_from_above(bool with_floor, double unseen_m) {
-  Volume volume;
-  volume.cell_m = 0.001;
-  volume.truncation_m = 0.004;
-  volume.origin_m = Vec3d(-0.024, -0.0005, -0.024);
-  volume.set_bricks({6, 5, 6});
-  for (std::size_t b = 0; b < volume.brick_count(); ++b) {
-    volume.allocate(b, float(volume.truncation_m));
-    const GridCoords at = volume.bricks.coords(b);
-    for (int c = 0; c < int(kBrickSamples); ++c) {
-      const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
-      const std::size_t s = volume.first_sample(b) + sample_in_brick(i, j, k);
-      const int layer = at[1] * kBrickSide + j;
-      const Vec3d p = volume.position(at[0] * kBrickSide + i, layer, at[2] * kBrickSide + k);
-      const double r = std::hypot(p.x(), p.z());
-      const bool reached = r > 0.5 * (2.0 * kOuter_m - kWall_m) || p.y() > unseen_m - 0.3 * r;
-      volume.value[s] = std::min(float(cup(p, with_floor)), float(volume.truncation_m));
-      volume.weight[s] = layer >= kLowestLayer && reached ? 1.0f : 0.0f;
-    }
-  }
-  return volume;
+  return testing::volume_on_platter(
+      5, [&](const Vec3d& p) { return std::min(cup(p, with_floor), 0.004); },
+      [&](const Vec3d& p) {
+        const double r = std::hypot(p.x(), p.z());
+        return r > 0.5 * (2.0 * kOuter_m - kWall_m) || p.y() > unseen_m - 0.3 * r;
+      });
 }
 
 std::size_t columns_in(const std::vector<std::uint8_t>& columns) {
@@ -61,7 +49,7 @@ bool has_floor(Volume volume) {
 
 TEST(HollowFloors, LieUnderACupIntoWhichNoRayLookedDeepEnough) {
   const Volume volume = seen_from_above(true, 0.016);
-  const auto floors = hollow_floors(volume, kLowestLayer);
+  const auto floors = hollow_floors(volume, kFloor);
   EXPECT_EQ(floors[24 + 48 * 24], 1);  // on the axis
   EXPECT_EQ(floors[2 + 48 * 24], 0);   // outside
   // Within the outer radius, and most of the hollow.
@@ -72,13 +60,13 @@ TEST(HollowFloors, LieUnderACupIntoWhichNoRayLookedDeepEnough) {
 
 TEST(HollowFloors, AreNotUnderATubeThroughWhichRaysSawThePlatter) {
   const Volume volume = seen_from_above(false, 0.0);
-  EXPECT_EQ(columns_in(hollow_floors(volume, kLowestLayer)), 0u);
+  EXPECT_EQ(columns_in(hollow_floors(volume, kFloor)), 0u);
   EXPECT_FALSE(has_floor(volume));
 }
 
 TEST(HollowFloors, AreNotInWhatIsSolid) {
   Volume volume = seen_from_above(true, 0.1);  // nothing was seen of the hollow
-  EXPECT_EQ(columns_in(hollow_floors(volume, kLowestLayer)), 0u);
+  EXPECT_EQ(columns_in(hollow_floors(volume, kFloor)), 0u);
 }
 
 }  // namespace

@@ -2,34 +2,18 @@
 
 #include <cmath>
 #include <turnscan/reconstruction/tsdf/platter_columns.hpp>
-#include <turnscan/reconstruction/tsdf/volume_samples.hpp>
+
+#include "tests/reconstruction/tsdf/volume_on_platter.hpp"
 
 namespace turnscan::tsdf {
 namespace {
 
-constexpr int kFloor = 5;  // layers of 1 mm; the first lies half of one below y = 0
+using testing::kFloor;
 
-/// 48 mm wide, 32 high, around the axis; all is known but what is below the floor.
+/// 32 mm high; all is known but what is below the floor.
 template <class Distance>
 Volume known_above_floor(const Distance& distance) {
-  Volume volume;
-  volume.cell_m = 0.001;
-  volume.truncation_m = 0.004;
-  volume.origin_m = Vec3d(-0.024, -0.0005, -0.024);
-  volume.set_bricks({6, 4, 6});
-  for (std::size_t b = 0; b < volume.brick_count(); ++b) {
-    volume.allocate(b, float(volume.truncation_m));
-    const GridCoords at = volume.bricks.coords(b);
-    for (int c = 0; c < int(kBrickSamples); ++c) {
-      const int i = c & 7, j = c >> 3 & 7, k = c >> 6;
-      const std::size_t s = volume.first_sample(b) + sample_in_brick(i, j, k);
-      const int layer = at[1] * kBrickSide + j;
-      volume.value[s] =
-          float(distance(volume.position(at[0] * kBrickSide + i, layer, at[2] * kBrickSide + k)));
-      volume.weight[s] = layer >= kFloor ? 1.0f : 0.0f;
-    }
-  }
-  return volume;
+  return testing::volume_on_platter(4, distance, [](const Vec3d&) { return true; });
 }
 
 double upright(const Vec3d& p) { return std::hypot(p.x(), p.z()) - 0.012; }

@@ -104,8 +104,9 @@ class HollowFloorSearch {
 
   Known known(int i, int j, int k) const {
     const std::ptrdiff_t s = samples_.at(i, j, k);
-    const float value = samples_.value(i, j, k);
-    if (s >= 0 ? !(v_.weight[std::size_t(s)] > 0.0f) : value == 0.0f) return Known::kNothing;
+    if (s >= 0 && !(v_.weight[std::size_t(s)] > 0.0f)) return Known::kNothing;
+    const float value = s >= 0 ? v_.value[std::size_t(s)] : v_.uniform[samples_.brick(i, j, k)];
+    if (s < 0 && value == 0.0f) return Known::kNothing;
     return value < 0.0f ? Known::kInside : Known::kFree;
   }
 
@@ -139,13 +140,14 @@ class HollowFloorSearch {
     for (std::size_t c = 0; c < layer_.size(); ++c) {
       if (visited[c] || layer_[c] == Known::kInside) continue;
       const std::vector<std::size_t> region = region_of(c, visited);
+      if (reaches_border(region)) continue;
       const auto count = [&](const auto& of) {
         return std::size_t(std::count_if(region.begin(), region.end(), of));
       };
       const bool hollow = count([&](std::size_t r) { return layer_[r] == Known::kFree; }) > 0 &&
                           count([&](std::size_t r) { return through_[r] != 0; }) == 0;
       const bool again = 2 * count([&](std::size_t r) { return found_[r] != 0; }) > region.size();
-      if (reaches_border(region) || !hollow || again) continue;
+      if (!hollow || again) continue;
       for (const std::size_t r : region) {
         found_[r] = 1;
         floors_[r] = 1 - free_at_floor_[r];
