@@ -6,6 +6,7 @@
 #include <numbers>
 #include <tests/reconstruction/mesh_refinement/ball_mesh.hpp>
 #include <tests/reconstruction/turning_scan.hpp>
+#include <turnscan/core/median.hpp>
 #include <turnscan/core/random.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit_parts.hpp>
@@ -92,6 +93,47 @@ TEST(MeshFit, FollowsAPlaceThatIsNoisierThanTheRest) {
   const auto fitted = fit_mesh(mesh, views, scale, RunContext());
   ASSERT_TRUE(fitted) << fitted.error().text();
   EXPECT_LT(median_error_to_ball(fitted->mesh), 0.0008);
+}
+
+MeshFit fit_of_ball(const std::vector<views::DepthView>& views) {
+  MeshFitScale scale;
+  scale.noise_m = 0.001;
+  scale.reach_m = 0.003;
+  const auto fitted = fit_mesh(ball_mesh(), views, scale, RunContext());
+  EXPECT_TRUE(fitted);
+  return *fitted;
+}
+
+TEST(MeshFit, StatesTheNoiseThatItLeaves) {
+  for (const int frames : {8, 24, 120}) {
+    const MeshFit fitted = fit_of_ball(views_of(scan(ball, {frames, 0.001})));
+    ASSERT_TRUE(fitted.noise_share);
+    std::vector<double> ratios;
+    for (std::size_t v = 0; v < fitted.support.size(); ++v) {
+      const Vec3d arm = fitted.mesh.vertices[v].cast<double>() - kCenter;
+      if (arm.y() < 0.0 || !(fitted.support[v] > 0.1f)) continue;
+      const double stated =
+          *fitted.noise_share * 0.001 / std::sqrt(1.0 + double(fitted.support[v]));
+      ratios.push_back(std::abs(arm.norm() - kRadius) / stated);
+    }
+    const double ratio = median(ratios) / 0.6745;
+    EXPECT_GT(ratio, 0.7) << frames;
+    EXPECT_LT(ratio, 1.4) << frames;
+  }
+}
+
+TEST(MeshFit, LeavesMoreWhereSidesDisagree) {
+  std::vector<views::DepthView> views = views_of(scan(ball, {48, 0.001}));
+  const auto before = fit_of_ball(views).noise_share;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    views[i].translation.z() += i / 4 % 2 == 0 ? 0.001f : -0.001f;
+  EXPECT_GT(fit_of_ball(views).noise_share.value(), 1.5 * before.value());
+}
+
+TEST(MeshFit, DoesNotKnowTheNoiseOfASingleView) {
+  std::vector<views::DepthView> views = views_of(scan(ball, {48, 0.001}));
+  views.resize(1);
+  EXPECT_FALSE(fit_of_ball(views).noise_share);
 }
 
 TEST(MeshFit, WallsStandStraightOnThePlatter) {

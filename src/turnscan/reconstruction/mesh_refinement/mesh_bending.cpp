@@ -53,6 +53,14 @@ class OffsetSolver {
     return solve();
   }
 
+  /// The solution is linear in what was measured and in the bends.
+  std::vector<float> without_bends() {
+    bends();
+    weights();
+    std::fill(bend_.begin(), bend_.end(), 0.0f);
+    return solve();
+  }
+
  private:
   /// Depth of each vertex below the mean of its neighbours, along its normal.
   void bends() {
@@ -271,6 +279,12 @@ std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours
                                   const std::vector<Vec3f>& normals,
                                   const VertexMeasurements& measured, const MeshFitScale& scale) {
   return OffsetSolver(mesh, neighbours, normals, measured, scale).offsets();
+}
+
+std::vector<float> fitted_errors(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
+                                 const std::vector<Vec3f>& normals,
+                                 const VertexMeasurements& errors, const MeshFitScale& scale) {
+  return OffsetSolver(mesh, neighbours, normals, errors, scale).without_bends();
 }
 
 }  // namespace turnscan::mesh_refinement

@@ -2,6 +2,7 @@
 // Mesh refinement: moves vertices along their normals to the surface that all depth frames together
 // indicate.
 
+#include <optional>
 #include <span>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
@@ -36,6 +37,13 @@ struct MeshFitScale {
 struct MeshFit {
   TriangleMesh mesh;
   std::vector<float> support;  ///< per vertex: sum of the weights of its measurements
+  /// Standard deviation of the fitted surface over noise_m / sqrt(1 + support), median over the
+  /// vertices, as far as views from different directions (30 degrees each) err independently:
+  /// noise, poses, and what a sensor measures differently from different sides. By balanced
+  /// repeated replication (P. McCarthy, "Replication: an approach to the analysis of data from
+  /// complex surveys", 1966). nullopt: no place was seen from two directions, or nothing was
+  /// fitted.
+  std::optional<double> noise_share;
 };
 
 /// Median of the non-zero supports.

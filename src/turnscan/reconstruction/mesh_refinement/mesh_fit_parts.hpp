@@ -45,6 +45,11 @@ std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours
                                   const std::vector<Vec3f>& normals,
                                   const VertexMeasurements& measured, const MeshFitScale& scale);
 
+/// What fitted_offsets() makes of errors of the measurements: offset sums, of weight times error.
+std::vector<float> fitted_errors(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
+                                 const std::vector<Vec3f>& normals,
+                                 const VertexMeasurements& errors, const MeshFitScale& scale);
+
 /// Smallest cosine between a triangle's normals before and after take_steps().
 inline constexpr float kMinTurn = 0.3f;
 /// Adds the steps to the vertices, shortened or omitted where a triangle would rotate by more.

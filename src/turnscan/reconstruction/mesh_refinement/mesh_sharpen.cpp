@@ -166,8 +166,12 @@ Result<> sharpen_mesh(TriangleMesh& mesh, std::span<const views::DepthView> view
   VertexObserver observer(mesh);
   observer.set_vertices(mesh.vertices, normals, {});
   context.begin_phase("sharpen", 2 * observer.blocks());
-  TURNSCAN_ASSIGN(const auto filtered, observer.observe(drawn, 1, scale, context));
-  TURNSCAN_ASSIGN(const auto found, observer.observe(views, 1, scale, context));
+  TURNSCAN_ASSIGN(
+      const auto filtered,
+      observer.observe(drawn, evenly_spread(drawn.size(), drawn.size()), scale, context));
+  TURNSCAN_ASSIGN(
+      const auto found,
+      observer.observe(views, evenly_spread(views.size(), views.size()), scale, context));
   take_steps(mesh, sharpening_steps(mesh, normals, found.measured, filtered.measured, scale));
   return {};
 }

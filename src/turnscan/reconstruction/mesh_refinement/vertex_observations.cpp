@@ -86,11 +86,10 @@ void VertexObserver::set_vertices(const std::vector<Vec3f>& positions,
 }
 
 Result<VertexObservations> VertexObserver::observe(std::span<const views::DepthView> views,
-                                                   std::size_t stride, const MeshFitScale& scale,
+                                                   std::span<const std::size_t> chosen,
+                                                   const MeshFitScale& scale,
                                                    const RunContext& context) const {
   const std::size_t n = order_.size();
-  std::vector<VertexKernelView> kernels;
-  for (const views::DepthView& view : views) kernels.push_back(kernel_view(view));
   const VertexColumns columns{columns_[0].data(), columns_[1].data(), columns_[2].data(),
                               columns_[3].data(), columns_[4].data(), columns_[5].data(),
                               columns_[6].data()};
@@ -100,14 +99,17 @@ Result<VertexObservations> VertexObserver::observe(std::span<const views::DepthV
                               kTukey,
                               kMinCosine,
                               scale.edge_weight};
+  std::vector<VertexKernelView> kernels;
+  for (const std::size_t v : chosen) kernels.push_back(kernel_view(views[v]));
   std::vector<float> weight(pad(n), 0.0f), offset(pad(n), 0.0f), near(pad(n), 0.0f);
   TURNSCAN_TRY(parallel_for(blocks(), 1, context, [&](std::size_t b) {
     const std::size_t begin = b * kBlock, end = std::min(n, begin + kBlock);
     const Patch around = patch(begin, end);
     VertexSums sums{weight.data(), offset.data(), near.data()};
-    for (std::size_t v = 0; v < views.size(); v += stride) {
-      if (turned_away(views[v], around) || outside_window(views[v], around)) continue;
-      VertexKernels::current().add_view(kernels[v], columns, begin, pad(end), how, sums);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      const views::DepthView& view = views[chosen[k]];
+      if (turned_away(view, around) || outside_window(view, around)) continue;
+      VertexKernels::current().add_view(kernels[k], columns, begin, pad(end), how, sums);
     }
     context.advance();
   }));

@@ -25,9 +25,10 @@ class VertexObserver {
   void set_vertices(const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals,
                     const std::vector<float>& spread);
 
-  /// Sums over every stride-th view. Fails with kCancelled.
-  Result<VertexObservations> observe(std::span<const views::DepthView> views, std::size_t stride,
-                                     const MeshFitScale& scale, const RunContext& context) const;
+  /// Sums over the chosen views. Fails with kCancelled.
+  Result<VertexObservations> observe(std::span<const views::DepthView> views,
+                                     std::span<const std::size_t> chosen, const MeshFitScale& scale,
+                                     const RunContext& context) const;
 
  private:
   /// Bounding ball of the vertices of a block, and cone around their normals, for culling.

@@ -13,12 +13,13 @@ namespace turnscan::quality {
 
 namespace {
 
-/// Fitted to simulated scans (bench/expected_error).
-constexpr double kNoiseShare = 0.22, kFloorShare = 0.018, kHiddenShare = 0.4;
+/// Fitted to simulated scans (bench/expected_error). The share of the noise is of a fit that could
+/// not tell its own.
+constexpr double kNoiseShare = 0.22, kHiddenShare = 0.4;
 constexpr double kFitBlur = 0.092, kRaggedBlur = 0.285, kFilteredBlur = 0.5;
 constexpr double kMixedShare = 0.65;
-/// Exponents of a fit's relative stiffness.
-constexpr double kLessNoise = 0.1, kMoreBlur = 0.44;
+/// Exponent of a fit's relative stiffness.
+constexpr double kMoreBlur = 0.44;
 /// Behind a filter, relative to the distance between pixels, at walls thinner than two of them.
 constexpr double kThinShare = 0.17, kThinPixels = 2.0;
 
@@ -83,7 +84,7 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const double typical = mesh_refinement::typical_support(support);
   const double stiffer = mesh_refinement::stiffening(scale.noise_m, 1.0, scale.spacing_m,
                                                      scale.edge_m, float(typical));
-  const double noise_share = kNoiseShare / std::pow(stiffer, kLessNoise);
+  const double noise_share = scale.noise_share.value_or(kNoiseShare);
   const bool filtered = scale.pixels == Pixels::kFiltered;
   std::optional<ThinWalls> walls;
   if (filtered) walls.emplace(mesh, normals);
@@ -93,7 +94,6 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
     const double bend = bending_at(mesh, normals, beside, std::uint32_t(v));
     const double noise = noise_share * scale.noise_m / std::sqrt(1.0 + double(support[v]));
     const double blur = window_m2 * bend;
-    const double floor = kFloorShare * scale.noise_m;
     const double lacking = std::max(0.0, 1.0 - double(support[v]) / typical);
     const double mixed = filtered ? kMixedShare * scale.noise_m * lacking : 0.0;
     const double hidden = kHiddenShare * double(way[v]);
@@ -101,7 +101,7 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
                             ? kThinShare * scale.spacing_m
                             : 0.0;
     double squares = 0.0;
-    for (const double part : {noise, blur, floor, mixed, hidden, thin}) squares += part * part;
+    for (const double part : {noise, blur, mixed, hidden, thin}) squares += part * part;
     out[v] = float(std::sqrt(squares));
   });
   return out;

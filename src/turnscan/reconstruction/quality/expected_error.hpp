@@ -1,6 +1,7 @@
 #pragma once
 // Expected distance of each vertex of a reconstructed mesh from the true surface.
 
+#include <optional>
 #include <turnscan/core/triangle_mesh.hpp>
 
 namespace turnscan::quality {
@@ -17,11 +18,12 @@ struct ErrorScale {
   double spacing_m = 0.001;  ///< of the points of one frame
   double edge_m = 0.0005;    ///< MeshFitScale::edge_m
   Pixels pixels = Pixels::kSharp;
+  std::optional<double> noise_share = std::nullopt;  ///< MeshFit::noise_share
 };
 
 /// Standard deviation of each vertex along its normal. support: for each vertex the sum of the
-/// weights of its measurements (mesh_refinement::MeshFit). Where the surface was measured: averaged
-/// noise, a floor, and the loss where the surface bends, which is due to the fit (the stiffer, the
+/// weights of its measurements (mesh_refinement::MeshFit). Where the surface was measured: the
+/// noise that the fit left (MeshFit::noise_share), and the loss where the surface bends, which is due to the fit (the stiffer, the
 /// more), to pixels that measure points beside their own, or to a sensor's filter. Behind such a
 /// filter also the mixing where little is seen (at outlines), and a share of the distance between
 /// pixels at walls thinner than two of them, whose measurements agree with each other on a wrong

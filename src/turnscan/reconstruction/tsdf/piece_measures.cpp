@@ -43,6 +43,7 @@ Result<> measure_quality(VolumetricPiece& piece, const VolumetricInput& input,
   TURNSCAN_ASSIGN(const auto seen,
                   quality::vertex_visibility(piece.mesh, input.views, tolerance_m, context));
   quality::ErrorScale errors{input.noise_m, input.spacing_m, scale.volume.cell_m};
+  errors.noise_share = piece.noise_share;
   if (filtered)
     errors.pixels = quality::Pixels::kFiltered;
   else if (estimation::ragged_share(input.views, piece.mesh, input.noise_m) > kRaggedShare)

@@ -117,6 +117,7 @@ class VolumetricReconstruction {
         TURNSCAN_TRY(timed("unseen", [&] { return close_unseen(fitted, surface); }));
       }
       if (!encloses_volume(fitted.mesh)) continue;
+      if (!piece.noise_share) piece.noise_share = fitted.noise_share;
       piece.support.insert(piece.support.end(), fitted.support.begin(), fitted.support.end());
       refined.push_back(std::move(fitted.mesh));
     }

@@ -37,6 +37,7 @@ struct VolumetricInput {
 struct VolumetricPiece {
   TriangleMesh mesh;
   std::vector<float> support;          ///< per vertex: sum of the weights of its measurements
+  std::optional<double> noise_share;   ///< MeshFit::noise_share of its first component
   std::vector<float> confidence;       ///< per vertex: support over its median, at most 1
   std::vector<VertexQuality> quality;  ///< per vertex
   std::vector<Evidence> evidence;      ///< per triangle

@@ -9,7 +9,6 @@
 #include <turnscan/workflow/calibration/reduced_frames.hpp>
 #include <turnscan/workflow/next_pass/next_pass_text.hpp>
 #include <turnscan/workflow/verdict/error_shares.hpp>
-#include <turnscan/workflow/verdict/frame_agreement.hpp>
 #include <turnscan/workflow/verdict/pose_error.hpp>
 #include <turnscan/workflow/verdict/scan_sentences.hpp>
 #include <turnscan/workflow/verdict/verdict_rules.hpp>
@@ -34,18 +33,7 @@ constexpr double kFairUnknown = 0.15, kShownUnknown = 0.03;
 constexpr double kNozzle_m = 0.0008;
 constexpr double kShownWorth = 0.03;  ///< share of the surface that another pass would show
 constexpr double kPoseMatters_m = 0.0005;
-/// Uncertainty of a frame's pose as a share of its spread; and the share of the frames' offsets
-/// that remains in a surface that is their mean, since neighbouring frames err alike
-/// (bench/expected_error).
-constexpr double kOffNoise = 0.1, kSharedOff = 0.2;
 constexpr std::size_t kThicknessSamples = 4000, kNamedHoles = 3;
-
-/// Offsets between frames beyond what the spread of their points explains.
-double disagreement_m(const std::vector<FrameResidual>& residuals) {
-  const FrameAgreement a = frame_agreement(residuals);
-  const double noise = kOffNoise * a.spread_m;
-  return std::sqrt(std::max(0.0, a.usual_m * a.usual_m - noise * noise));
-}
 
 std::vector<double> vertex_areas(const TriangleMesh& mesh) {
   std::vector<double> out(mesh.vertices.size(), 0.0);
@@ -107,18 +95,16 @@ class Judge {
     out_.sentences.push_back({std::move(topic), level, std::move(text), value, std::move(unit)});
   }
 
-  /// Adds the uncertainty left by the calibration, and by frames that disagree, with the surface
-  /// between them.
+  /// Adds the uncertainty left by the calibration, which all frames share.
   void add_pose_errors() {
     if (object_.quality.empty()) return;
     const PoseError error = pose_error(known_);
-    const double shared_m = residuals_ != nullptr ? kSharedOff * disagreement_m(*residuals_) : 0.0;
     const Vec3d middle = bounds(object_.mesh.vertices).center();
     for (std::size_t v = 0; v < object_.quality.size(); ++v) {
       const Vec3d arm = object_.mesh.vertices[v].cast<double>() - middle;
       float& expected = object_.quality[v].expected_error_m;
-      expected = float(std::hypot(double(expected), shared_m,
-                                  error.along_normal_m(arm, normals_[v].cast<double>())));
+      expected = float(
+          std::hypot(double(expected), error.along_normal_m(arm, normals_[v].cast<double>())));
     }
   }
 
