@@ -16,7 +16,7 @@ namespace {
 /// Fitted to simulated scans (bench/expected_error). The share of the noise is of a fit that could
 /// not tell its own.
 constexpr double kNoiseShare = 0.22, kHiddenShare = 0.4;
-constexpr double kFitBlur = 0.092, kRaggedBlur = 0.285, kFilteredBlur = 0.5;
+constexpr double kFitBlur = 0.52, kRaggedBlur = 0.285, kFilteredBlur = 0.5;
 constexpr double kMixedShare = 0.65;
 /// Exponent of a fit's relative stiffness.
 constexpr double kMoreBlur = 0.44;
@@ -69,9 +69,9 @@ double blurring_window_m2(const ErrorScale& scale, double stiffer) {
     case Pixels::kSharp:
       break;
   }
-  // Pixels of many frames sample between each other's, so that less noise reveals finer detail.
-  return kFitBlur * std::pow(stiffer, kMoreBlur) * std::pow(scale.spacing_m, 1.5) *
-         std::sqrt(scale.noise_m);
+  // Bends beyond the noise are creases, which the fit spares: less noise reveals finer detail.
+  return kFitBlur * std::pow(stiffer, kMoreBlur) * scale.edge_m * scale.edge_m *
+         std::sqrt(scale.noise_m / scale.spacing_m);
 }
 
 }  // namespace
