@@ -45,15 +45,6 @@ TEST(ExpectedErrors, AreLargerWhereTheSurfaceBends) {
   EXPECT_GT(errors[at(20, 20)], 1.3f * errors[at(5, 20)]);
 }
 
-TEST(ExpectedErrors, AreLargerAtBendsWherePixelsSeePlacesBesideTheirs) {
-  const TriangleMesh mesh = sheet(0.5f);
-  const std::vector<float> support(mesh.vertices.size(), 50.0f);
-  const auto sharp = expected_errors(mesh, support, kScale);
-  const auto ragged = expected_errors(mesh, support, {0.0015, 0.002, 0.0009, Pixels::kRagged});
-  EXPECT_GT(ragged[at(20, 20)], 1.2f * sharp[at(20, 20)]);
-  EXPECT_EQ(ragged[at(5, 20)], sharp[at(5, 20)]) << "a flat place";
-}
-
 TEST(ExpectedErrors, AreLargerAtBendsWhereTheFitIsStiffer) {
   const TriangleMesh mesh = sheet(0.5f);
   const auto lost = [&](float measurements) {
@@ -97,7 +88,7 @@ TriangleMesh slab(float thickness_m) {
 }
 
 TEST(ExpectedErrors, AreLargerAtWallsThatAFilterCannotTellApart) {
-  const ErrorScale filtered{0.0015, 0.002, 0.0009, Pixels::kFiltered};
+  const ErrorScale filtered{0.0015, 0.002, 0.0009, true};
   const auto middle_of = [](const TriangleMesh& mesh, const ErrorScale& scale) {
     return expected_errors(mesh, std::vector<float>(mesh.vertices.size(), 50.0f),
                            scale)[at(20, 20)];

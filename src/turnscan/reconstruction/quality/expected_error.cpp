@@ -16,7 +16,7 @@ namespace {
 /// Fitted to simulated scans (bench/expected_error). The share of the noise is of a fit that could
 /// not tell its own.
 constexpr double kNoiseShare = 0.22, kHiddenShare = 0.4;
-constexpr double kFitBlur = 0.52, kRaggedBlur = 0.285, kFilteredBlur = 0.5;
+constexpr double kFitBlur = 0.52, kFilteredBlur = 0.5;
 constexpr double kMixedShare = 0.65;
 /// Exponent of a fit's relative stiffness.
 constexpr double kMoreBlur = 0.44;
@@ -60,15 +60,7 @@ double bending_at(const TriangleMesh& mesh, const std::vector<Vec3f>& normals,
 
 /// Factor from a bend, as an angle per length, to the distance that is lost.
 double blurring_window_m2(const ErrorScale& scale, double stiffer) {
-  const double pixel_m2 = scale.spacing_m * scale.spacing_m;
-  switch (scale.pixels) {
-    case Pixels::kFiltered:
-      return kFilteredBlur * pixel_m2;
-    case Pixels::kRagged:
-      return kRaggedBlur * pixel_m2;
-    case Pixels::kSharp:
-      break;
-  }
+  if (scale.filtered) return kFilteredBlur * scale.spacing_m * scale.spacing_m;
   // Bends beyond the noise are creases, which the fit spares: less noise reveals finer detail.
   return kFitBlur * std::pow(stiffer, kMoreBlur) * scale.edge_m * scale.edge_m *
          std::sqrt(scale.noise_m / scale.spacing_m);
@@ -85,9 +77,8 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const double stiffer = mesh_refinement::stiffening(scale.noise_m, 1.0, scale.spacing_m,
                                                      scale.edge_m, float(typical));
   const double noise_share = scale.noise_share.value_or(kNoiseShare);
-  const bool filtered = scale.pixels == Pixels::kFiltered;
   std::optional<ThinWalls> walls;
-  if (filtered) walls.emplace(mesh, normals);
+  if (scale.filtered) walls.emplace(mesh, normals);
   const double window_m2 = blurring_window_m2(scale, stiffer);
   std::vector<float> out(mesh.vertices.size());
   parallel_for(out.size(), 1024, [&](std::size_t v) {
@@ -95,7 +86,7 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
     const double noise = noise_share * scale.noise_m / std::sqrt(1.0 + double(support[v]));
     const double blur = window_m2 * bend;
     const double lacking = std::max(0.0, 1.0 - double(support[v]) / typical);
-    const double mixed = filtered ? kMixedShare * scale.noise_m * lacking : 0.0;
+    const double mixed = scale.filtered ? kMixedShare * scale.noise_m * lacking : 0.0;
     const double hidden = kHiddenShare * double(way[v]);
     const double thin = walls && walls->thinner_than(kThinPixels * scale.spacing_m, v)
                             ? kThinShare * scale.spacing_m

@@ -3,7 +3,6 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
-#include <turnscan/reconstruction/estimation/silhouette_roughness.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit.hpp>
 #include <turnscan/reconstruction/quality/expected_error.hpp>
 #include <turnscan/reconstruction/quality/vertex_visibility.hpp>
@@ -16,10 +15,6 @@ namespace {
 
 /// Smaller invented surface without a return is not worth a note: rims have some.
 constexpr double kMinNoReturn_m2 = 3e-4;
-/// Gaussian noise alone has shares of 0.01 to 0.09, the published lateral noises 0.12 to 0.28
-/// (bench/expected_error).
-constexpr double kRaggedShare = 0.11;
-
 /// Whether vertices that no pass saw are in the plane of a platter.
 bool on_platter(const std::vector<Vec3f>& p, const std::array<std::uint32_t, 3>& t,
                 const VolumeScale& scale) {
@@ -42,13 +37,9 @@ Result<> measure_quality(VolumetricPiece& piece, const VolumetricInput& input,
   const double tolerance_m = 3.0 * input.noise_m + scale.volume.cell_m;
   TURNSCAN_ASSIGN(const auto seen,
                   quality::vertex_visibility(piece.mesh, input.views, tolerance_m, context));
-  quality::ErrorScale errors{input.noise_m, input.spacing_m, scale.volume.cell_m};
-  errors.noise_share = piece.noise_share;
-  if (filtered)
-    errors.pixels = quality::Pixels::kFiltered;
-  else if (estimation::ragged_share(input.views, piece.mesh, input.noise_m) > kRaggedShare)
-    errors.pixels = quality::Pixels::kRagged;
-  const auto expected = quality::expected_errors(piece.mesh, piece.support, errors);
+  const auto expected = quality::expected_errors(
+      piece.mesh, piece.support,
+      {input.noise_m, input.spacing_m, scale.volume.cell_m, filtered, piece.noise_share});
   piece.quality.resize(expected.size());
   for (std::size_t v = 0; v < expected.size(); ++v)
     piece.quality[v] = {expected[v], seen.frames[v], seen.directions[v]};
