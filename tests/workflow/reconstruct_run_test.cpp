@@ -105,6 +105,26 @@ TEST_F(ReconstructRunOf, AKnockThatWasPutRightIsNotHeldAgainstTheMesh) {
   EXPECT_EQ(object.verdict->colour(), "green");
 }
 
+TEST_F(ReconstructRunOf, AStaleTableThatFramesWereMovedOffIsNotHeldAgainstTheMesh) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  SceneDescription scene;
+  scene.object = "builtin:doll";
+  scene.motion.frames = 60;
+  scene.measure.noise = "gaussian:1mm";
+  scene.placement.knock.at_s = 1.0;
+  scene.placement.knock.shift_m = 0.005;
+  scene.placement.knock.pan_rad = 0.5 * kRadiansPerDegree;
+  scene.table.tilt_rad = 1.0 * kRadiansPerDegree;
+  scene.table.x_m = 0.004;
+  scene.record.calibration = RecordedCalibration::kNominal;
+  const auto run = run_of(scene);
+  ASSERT_TRUE(run) << run.error().text();
+  ASSERT_FALSE(run->choice.poses.empty());
+  const ObjectResult& object = run->reconstruction.objects.at(0);
+  ASSERT_TRUE(object.verdict);
+  EXPECT_EQ(object.verdict->colour(), "green");
+}
+
 TEST_F(ReconstructRunOf, AnUnknownWayToCalibrateFails) {
   request.calibration = "guess";
   const auto run = run_reconstruction(scan->scan, request, RunContext());

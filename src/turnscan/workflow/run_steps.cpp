@@ -97,6 +97,14 @@ SequenceView before_knock(const FrameSequence& sequence,
   return first_frames(sequence, count);
 }
 
+/// Whether the frames stand where the motion of what they show placed them from the beginning, and
+/// not where the recorded calibration has them.
+bool placed_anew(const CalibrationChoice& choice) {
+  return !choice.poses.empty() &&
+         std::any_of(choice.disturbances.begin(), choice.disturbances.end(),
+                     [](const auto& d) { return d.kind == DisturbanceKind::kCalibration; });
+}
+
 /// Judges by the recording that shows most sides of its object.
 Result<> judge(const std::vector<PlacedRecording>& placed, const std::vector<PassOfMany>& passes,
                const ReconstructRequest& request, const RunContext& context, ReconstructRun& run) {
@@ -111,7 +119,8 @@ Result<> judge(const std::vector<PlacedRecording>& placed, const std::vector<Pas
   }
   const FrameSequence& first = *placed[0].on_table;
   known.dates = dates_of(*placed[0].recorded, request.turntable);
-  known.table_recorded = first.header().turntable && !run.choice.calibration && !has_poses(first);
+  known.table_recorded = first.header().turntable && !run.choice.calibration && !has_poses(first) &&
+                         !placed_anew(run.choice);
   if (known.table_recorded) {
     TURNSCAN_ASSIGN(known.platter, platter_against_calibration(
                                        before_knock(first, run.choice.disturbances), context));
