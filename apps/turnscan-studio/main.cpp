@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   MainWindow window;
   window.show();
   window.offer_lost_session();
+  window.offer_unfinished_recording();
   for (const QString& file : parser.positionalArguments()) window.open(file);
   return QApplication::exec();
 }

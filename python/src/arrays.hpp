@@ -1,5 +1,6 @@
 #pragma once
-// Numpy's views of our vectors: no copy, read-only, alive as long as their owner.
+// Numpy's views of our vectors (no copy, read-only, alive as long as their owner), and its arrays
+// for us.
 
 #include <pybind11/numpy.h>
 
@@ -7,7 +8,10 @@
 #include <cstdint>
 #include <turnscan/core/image.hpp>
 #include <turnscan/core/pose.hpp>
+#include <type_traits>
 #include <vector>
+
+#include "errors.hpp"
 
 namespace turnscan::python {
 
@@ -37,6 +41,26 @@ inline py::array view_of(const DepthImage& image, const py::handle& owner) {
 inline py::array view_of(const ColorImage& image, const py::handle& owner) {
   return view_of(reinterpret_cast<const std::uint8_t*>(image.pixels.data()),
                  {image.height, image.width, 3}, owner);
+}
+
+template <class T>
+using Packed = py::array_t<T, py::array::c_style | py::array::forcecast>;
+
+/// The array's numbers as T, one behind the other. Raises turnscan.Error where numpy would cast
+/// silently: text, complex numbers, and what an integer T does not hold.
+template <class T>
+Packed<T> packed(const py::array& given, const char* name) {
+  const char kind = given.dtype().kind();
+  if (kind == 'u' || kind == 'i' || kind == 'b' || kind == 'f') {
+    Packed<T> out(given);
+    if (std::is_floating_point_v<T> || given.dtype().is(py::dtype::of<T>()) ||
+        py::cast<bool>(out.attr("__eq__")(given).attr("all")()))
+      return out;
+  }
+  const char* const wanted = std::is_floating_point_v<T> ? "real numbers are needed"
+                             : sizeof(T) == 1            ? "whole numbers from 0 to 255 are needed"
+                                              : "whole numbers from 0 to 4294967295 are needed";
+  raise({ErrorCode::kFormat, fmt::format("{}: {}", name, wanted), ""});
 }
 
 /// A pose as 4x4 matrix, and back; None is nullopt. Raises turnscan.Error for what is no pose.

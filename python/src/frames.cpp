@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <turnscan/api/recording.hpp>
 #include <turnscan/recording/recording.hpp>
 
@@ -24,7 +25,7 @@ py::object matrix_of(const std::optional<Pose>& pose) {
 
 std::optional<Pose> pose_of(const py::object& matrix) {
   if (matrix.is_none()) return std::nullopt;
-  const py::array_t<double, py::array::forcecast> array(matrix);
+  const auto array = packed<double>(py::array(matrix), "pose");
   if (array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4)
     raise({ErrorCode::kFormat, "pose: a matrix of four rows of four is needed", ""});
   Eigen::Matrix4d values;
@@ -117,6 +118,9 @@ void bind_camera(py::module_& module) {
   py::class_<SensorInfo>(module, "Sensor")
       .def(py::init([](const Intrinsics& intrinsics, double depth_unit, const py::object& pose,
                        const std::string& model) {
+             if (!(depth_unit > 0.0 && depth_unit <= 1.0))
+               raise({ErrorCode::kInvalidOption,
+                      fmt::format("depth_unit: {} m is not within 0 to 1 m", depth_unit), ""});
              SensorInfo made;
              made.intrinsics = intrinsics;
              made.depth_unit_m = depth_unit;
@@ -135,8 +139,13 @@ void bind_camera(py::module_& module) {
   py::class_<TurntableInfo>(module, "Turntable")
       .def(py::init([](const std::array<double, 3>& axis, const std::array<double, 3>& center,
                        std::optional<double> radius, std::optional<double> speed) {
+             const Vec3d along = vector_of(axis);
+             if (!(along.norm() > 0.0 && along.allFinite() && vector_of(center).allFinite()))
+               raise({ErrorCode::kInvalidOption,
+                      "turntable: axis and center must be finite, and the axis has a direction",
+                      ""});
              TurntableInfo made;
-             made.axis = vector_of(axis).normalized();
+             made.axis = along.normalized();
              made.center_m = vector_of(center);
              made.radius_m = radius;
              made.speed_rad_s = speed;
@@ -189,43 +198,54 @@ void add_frame(FramesObject& self, const py::object& depth, std::optional<double
                std::uint32_t turn, const py::object& pose, const py::object& color) {
   if (sensor >= self.frames.header_.sensors.size())
     raise({ErrorCode::kInvalidOption, fmt::format("sensor: there is no {}", sensor), ""});
-  Frame frame;
-  set_images(frame, depth, color);
-  const CameraIntrinsics& camera = self.frames.header_.sensors[sensor].intrinsics;
-  if (frame.depth.width != camera.width || frame.depth.height != camera.height)
-    raise({ErrorCode::kFormat,
-           fmt::format("depth: the image has {} x {} pixels, its camera {} x {}", frame.depth.width,
-                       frame.depth.height, camera.width, camera.height),
-           ""});
-  frame.info.angle_rad = angle;
-  if (time) frame.info.time_s = *time;
+  Frame frame =
+      frame_of({depth, angle, time, pose, color}, self.frames.header_.sensors[sensor].intrinsics);
   frame.info.sensor = sensor;
   frame.info.pass = pass;
   frame.info.turn = turn;
-  frame.info.T_table_sensor = pose_of(pose);
   self.frames.add(std::move(frame));
 }
 
 }  // namespace
 
-void set_images(Frame& frame, const py::object& depth, const py::object& color) {
-  const py::array_t<std::uint16_t, py::array::c_style | py::array::forcecast> image(depth);
-  if (image.ndim() != 2 || image.size() == 0)
-    raise({ErrorCode::kFormat, "depth: an image of rows and columns is needed", ""});
-  frame.depth.width = static_cast<int>(image.shape(1));
-  frame.depth.height = static_cast<int>(image.shape(0));
+Frame frame_of(const FrameParts& parts, const CameraIntrinsics& camera) {
+  const auto check_size = [&](const py::array& image, const char* name, py::ssize_t dimensions) {
+    // Before it is copied: an array may pretend to be of any size.
+    if (image.ndim() == dimensions && image.shape(0) == camera.height &&
+        image.shape(1) == camera.width && (dimensions == 2 || image.shape(2) == 3))
+      return;
+    raise({ErrorCode::kFormat,
+           fmt::format("{}: an array of {} rows of {} pixels{} is needed, as of its camera", name,
+                       camera.height, camera.width, dimensions == 2 ? "" : " of three channels"),
+           ""});
+  };
+  if (parts.angle && !std::isfinite(*parts.angle))
+    raise({ErrorCode::kInvalidOption, "angle: it is not finite; leave it out if it is not known",
+           ""});
+  if (parts.time && std::isinf(*parts.time))
+    raise({ErrorCode::kInvalidOption, "time: it is infinite; leave it out if it is not known", ""});
+  Frame frame;
+  const py::array depth(parts.depth);
+  check_size(depth, "depth", 2);
+  const auto image = packed<std::uint16_t>(depth, "depth");
+  frame.depth.width = camera.width;
+  frame.depth.height = camera.height;
   frame.depth.pixels.assign(image.data(), image.data() + image.size());
-  if (color.is_none()) return;
-  const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast> colors(color);
-  if (colors.ndim() != 3 || colors.shape(2) != 3)
-    raise(
-        {ErrorCode::kFormat, "color: an image of rows, columns and three channels is needed", ""});
-  frame.color = ColorImage(static_cast<int>(colors.shape(1)), static_cast<int>(colors.shape(0)));
-  const std::uint8_t* from = colors.data();
-  for (Rgb& pixel : frame.color.pixels) {
-    pixel = {from[0], from[1], from[2]};
-    from += 3;
+  if (!parts.color.is_none()) {
+    const py::array color(parts.color);
+    check_size(color, "color", 3);
+    const auto colors = packed<std::uint8_t>(color, "color");
+    frame.color = ColorImage(camera.width, camera.height);
+    const std::uint8_t* from = colors.data();
+    for (Rgb& pixel : frame.color.pixels) {
+      pixel = {from[0], from[1], from[2]};
+      from += 3;
+    }
   }
+  frame.info.angle_rad = parts.angle;
+  if (parts.time) frame.info.time_s = *parts.time;
+  frame.info.T_table_sensor = pose_of(parts.pose);
+  return frame;
 }
 
 void bind_frames(py::module_& module) {

@@ -17,8 +17,14 @@ struct SequenceObject {
 
 void bind_frames(py::module_& module);
 
-/// Sets depth and colour of a frame from numpy arrays; depth is of type uint16. Raises for what is
-/// no image.
-void set_images(Frame& frame, const py::object& depth, const py::object& color);
+/// What a program hands over of a frame. Its depth is of type uint16.
+struct FrameParts {
+  py::object depth;
+  std::optional<double> angle, time;
+  py::object pose, color;
+};
+/// Raises for what are no images of this camera, no pose, and angles and times that are no numbers;
+/// a time that is not known may be NaN.
+Frame frame_of(const FrameParts& parts, const CameraIntrinsics& camera);
 
 }  // namespace turnscan::python

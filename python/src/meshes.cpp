@@ -14,27 +14,25 @@ namespace turnscan::python {
 namespace {
 
 template <class T>
-using Rows = py::array_t<T, py::array::c_style | py::array::forcecast>;
-
-template <class T>
-void check_rows(const Rows<T>& array, const char* name, py::ssize_t count) {
-  if (array.ndim() == 2 && array.shape(1) == 3 && (count < 0 || array.shape(0) == count)) return;
+Packed<T> rows_of(const py::array& array, const char* name, py::ssize_t count = -1) {
+  if (array.ndim() == 2 && array.shape(1) == 3 && (count < 0 || array.shape(0) == count))
+    return packed<T>(array, name);
   raise({ErrorCode::kFormat, fmt::format("{}: an array of N rows of three is needed", name), ""});
 }
 
-MeshObject make_mesh(const Rows<float>& vertices, const Rows<std::uint32_t>& triangles,
-                     const std::optional<Rows<std::uint8_t>>& colors) {
-  check_rows(vertices, "vertices", -1);
-  check_rows(triangles, "triangles", -1);
+MeshObject make_mesh(const py::array& given_vertices, const py::array& given_triangles,
+                     const std::optional<py::array>& given_colors) {
+  const auto vertices = rows_of<float>(given_vertices, "vertices");
+  const auto triangles = rows_of<std::uint32_t>(given_triangles, "triangles");
   auto mesh = std::make_shared<TriangleMesh>();
   for (py::ssize_t i = 0; i < vertices.shape(0); ++i)
     mesh->vertices.emplace_back(vertices.at(i, 0), vertices.at(i, 1), vertices.at(i, 2));
   for (py::ssize_t i = 0; i < triangles.shape(0); ++i)
     mesh->triangles.push_back({triangles.at(i, 0), triangles.at(i, 1), triangles.at(i, 2)});
-  if (colors) {
-    check_rows(*colors, "colors", vertices.shape(0));
-    for (py::ssize_t i = 0; i < colors->shape(0); ++i)
-      mesh->colors.push_back({colors->at(i, 0), colors->at(i, 1), colors->at(i, 2)});
+  if (given_colors) {
+    const auto colors = rows_of<std::uint8_t>(*given_colors, "colors", vertices.shape(0));
+    for (py::ssize_t i = 0; i < colors.shape(0); ++i)
+      mesh->colors.push_back({colors.at(i, 0), colors.at(i, 1), colors.at(i, 2)});
   }
   unwrap(validate_mesh(*mesh));
   return {mesh};

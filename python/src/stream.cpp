@@ -19,6 +19,9 @@ class StreamObject {
  public:
   StreamObject(std::optional<TurntableInfo> turntable, double depth_unit, const py::object& pose,
                const py::kwargs& options) {
+    if (!(depth_unit > 0.0 && depth_unit <= 1.0))
+      raise({ErrorCode::kInvalidOption,
+             fmt::format("depth_unit: {} m is not within 0 to 1 m", depth_unit), ""});
     header_.turntable = std::move(turntable);
     sensor_.depth_unit_m = depth_unit;
     sensor_.T_table_sensor = pose_of(pose);
@@ -29,12 +32,8 @@ class StreamObject {
            std::optional<double> time, const py::object& pose, const py::object& color) {
     if (!stream_) begin(intrinsics);
     check_camera(intrinsics);
-    Frame frame;
-    set_images(frame, depth, color);
+    Frame frame = frame_of({depth, angle, time, pose, color}, intrinsics);
     frame.info.index = count_;
-    frame.info.angle_rad = angle;
-    if (time) frame.info.time_s = *time;
-    frame.info.T_table_sensor = pose_of(pose);
     call(py::none(), [&](const RunContext& context) { return stream_->add(frame, context); });
     ++count_;
   }

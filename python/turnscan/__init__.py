@@ -38,16 +38,21 @@ __all__ = ["Calibration", "Error", "Frame", "Frames", "Intrinsics", "Mesh", "Opt
 _NO_RETURN, _LARGEST = 0, 65534  # 65535 means a return outside the crop
 
 
-def _raw_depth(depth, unit):
+def _raw_depth(depth, unit, camera):
     """Depth as the sensor counts it. Floating-point images are metres; what is not finite or not
     positive is no return."""
     depth = _np.asarray(depth)
+    if depth.shape != (camera.height, camera.width):
+        raise Error(f"depth: the array has the shape {depth.shape}, and its camera {camera.height} "
+                    f"rows of {camera.width} pixels", "format")
     if depth.dtype.kind in "ui":
-        if depth.dtype != _np.uint16 and depth.size and (depth.min() < 0 or depth.max() > 65535):
+        if depth.dtype != _np.uint16 and (depth.min() < 0 or depth.max() > 65535):
             raise Error("depth: values must fit into 16 bits; give metres, or another unit",
                         "format")
         return depth
-    with _np.errstate(invalid="ignore"):
+    if depth.dtype.kind != "f":
+        raise Error(f"depth: numbers are needed, not {depth.dtype}", "format")
+    with _np.errstate(invalid="ignore", over="ignore"):
         steps = _np.rint(depth / unit)
         steps[~((steps > 0) & (steps <= _LARGEST))] = _NO_RETURN
     return steps.astype(_np.uint16)
@@ -66,8 +71,12 @@ class Frames(_turnscan._Frames):
             color=None):
         """Appends a frame (its arrays are copied). angle: how far the platter has turned since
         the first frame; pose: 4x4, sensor to table, takes precedence over the angle."""
-        self._add(_raw_depth(depth, self.sensors[sensor].depth_unit), angle, time, sensor, pass_,
-                  turn, pose, color)
+        sensors = self.sensors
+        if not 0 <= sensor < len(sensors):
+            raise OptionError(f"sensor: there is no {sensor}", "invalid-option")
+        of = sensors[sensor]
+        self._add(_raw_depth(depth, of.depth_unit, of.intrinsics), angle, time, sensor, pass_, turn,
+                  pose, color)
 
 
 class Stream(_turnscan._Stream):
@@ -79,7 +88,7 @@ class Stream(_turnscan._Stream):
 
     def add(self, depth, intrinsics, angle=None, *, time=None, pose=None, color=None):
         """Works on a frame. Needs its angle or its pose, or the turntable's speed and a time."""
-        self._add(_raw_depth(depth, self._depth_unit), intrinsics, angle, time, pose, color)
+        self._add(_raw_depth(depth, self._depth_unit, intrinsics), intrinsics, angle, time, pose, color)
 
 
 def reconstruct(recordings, *, calibration="auto", turntable="", allow_open=False, progress=None,

@@ -1,9 +1,12 @@
 #pragma once
 // A turntable's board behind a pseudo-terminal, which may misbehave.
 
+#include <arpa/inet.h>
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <poll.h>
 #include <pty.h>
+#include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -35,14 +38,42 @@ enum class BoardFault {
   kEcho,        // sends back what it is told before it answers
   kEndless,     // sends without end
   kSilent,      // answers nothing any more
-  kStops        // stops by itself without a word
+  kStops,       // stops by itself without a word
+  kDamagesOne,  // Marlin: hears a damaged line once, and asks for it again
+  kBusy         // Marlin: says that it is busy, once, and answers after that
 };
 
-/// Speaks the text protocol or GRBL. The fault begins when the table is told to turn, or at once.
+enum class BoardKind {
+  kText,
+  kGrbl,
+  kGrblHal,
+  kFluidNc,  // behind TCP, as all that are called ...Tcp
+  kMarlin,
+  kMarlinTcp
+};
+
+/// The fault begins when the table is told to turn, or at once.
 class SimulatedTable {
  public:
-  SimulatedTable(bool grbl, BoardFault fault, bool from_start = false)
-      : grbl_(grbl), fault_(fault), faulty_(from_start) {
+  SimulatedTable(BoardKind kind, BoardFault fault, bool from_start = false)
+      : kind_(kind), fault_(fault), faulty_(from_start) {
+    if (kind == BoardKind::kFluidNc || kind == BoardKind::kMarlinTcp)
+      listen_at_port();
+    else
+      open_terminal();
+    thread_ = std::thread([this] { run(); });
+  }
+  ~SimulatedTable() {
+    ending_ = true;
+    thread_.join();
+    for (const int descriptor : {master_, slave_, listening_})
+      if (descriptor >= 0) ::close(descriptor);
+  }
+  SimulatedTable(const SimulatedTable&) = delete;
+  SimulatedTable& operator=(const SimulatedTable&) = delete;
+
+ private:
+  void open_terminal() {
     int slave = -1;
     char name[128] = {};
     if (::openpty(&master_, &slave, name, nullptr, nullptr) != 0) std::abort();
@@ -52,17 +83,21 @@ class SimulatedTable {
     ::tcsetattr(slave, TCSANOW, &raw);
     slave_ = slave;  // stays open: else the terminal is gone before the program opens it
     port_ = name;
-    thread_ = std::thread([this] { run(); });
   }
-  ~SimulatedTable() {
-    ending_ = true;
-    thread_.join();
-    if (master_ >= 0) ::close(master_);
-    if (slave_ >= 0) ::close(slave_);
+  void listen_at_port() {
+    listening_ = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof at;
+    if (::bind(listening_, reinterpret_cast<sockaddr*>(&at), size) != 0 ||
+        ::listen(listening_, 1) != 0 ||
+        ::getsockname(listening_, reinterpret_cast<sockaddr*>(&at), &size) != 0)
+      std::abort();
+    port_ = "tcp:127.0.0.1:" + std::to_string(ntohs(at.sin_port));
   }
-  SimulatedTable(const SimulatedTable&) = delete;
-  SimulatedTable& operator=(const SimulatedTable&) = delete;
 
+ public:
   const std::string& port() const { return port_; }
   bool turning() {
     const std::lock_guard lock(mutex_);
@@ -94,12 +129,15 @@ class SimulatedTable {
     const auto now = Clock::now();
     double dt = seconds(now - moved_);
     moved_ = now;
-    if (speed_ != 0.0 && !grbl_ && seconds(now - heard_) > kWatchdog_s) {
+    if (speed_ != 0.0 && text_() && seconds(now - heard_) > kWatchdog_s) {
       speed_ = 0.0;
       halted_ = true;
     }
     if (speed_ == 0.0) return;
-    if (fault_ == BoardFault::kStops && faulty_ && seconds(now - began_) > 0.2) speed_ = 0.0;
+    if (fault_ == BoardFault::kStops && faulty_ && seconds(now - began_) > 0.2) {
+      speed_ = 0.0;
+      target_ = angle_;
+    }
     if (fault_ == BoardFault::kStalls && faulty_) dt = 0.0;
     angle_ += speed_ * dt;
     if (fault_ == BoardFault::kStalls && faulty_) return;
@@ -121,9 +159,34 @@ class SimulatedTable {
   void stand() {
     speed_ = 0.0;
     aimed_ = false;
+    target_ = angle_;
   }
 
-  void send(const std::string& text) { (void)!::write(master_, text.data(), text.size()); }
+  bool text_() const { return kind_ == BoardKind::kText; }
+  bool marlin() const { return kind_ == BoardKind::kMarlin || kind_ == BoardKind::kMarlinTcp; }
+  /// The line with which the board starts.
+  std::string greeting() const {
+    switch (kind_) {
+      case BoardKind::kText:
+        return "0 ready";
+      case BoardKind::kGrbl:
+        return "Grbl 1.1h ['$' for help]";
+      case BoardKind::kGrblHal:
+        return "GrblHAL 1.1f ['$' or '$HELP' for help]";
+      case BoardKind::kFluidNc:
+        return "Grbl 3.7 [FluidNC v3.7.8 (wifi) '$' for help]";
+      default:
+        return "start";
+    }
+  }
+
+  void send(const std::string& text) {
+    // A socket that the program closed must not end the tests.
+    if (listening_ >= 0)
+      (void)!::send(master_, text.data(), text.size(), MSG_NOSIGNAL);
+    else
+      (void)!::write(master_, text.data(), text.size());
+  }
   static std::string sealed(const std::string& text) {
     unsigned sum = 0;
     for (const char c : text) sum ^= static_cast<unsigned char>(c);
@@ -131,7 +194,9 @@ class SimulatedTable {
     std::snprintf(end, sizeof end, " *%02x", sum);
     return text + end;
   }
-  std::string line(const std::string& text) const { return (grbl_ ? text : sealed(text)) + "\r\n"; }
+  std::string line(const std::string& text) const {
+    return (text_() ? sealed(text) : text) + "\r\n";
+  }
 
   void answer(const std::string& text) {
     if (!faulty_) return send(line(text));
@@ -146,7 +211,7 @@ class SimulatedTable {
         return send(bad);
       }
       case BoardFault::kWrongReply:
-        return send(line(grbl_ ? "ja" : text.substr(0, text.find(' ')) + " jawohl"));
+        return send(line(text_() ? text.substr(0, text.find(' ')) + " jawohl" : "ja"));
       case BoardFault::kHalfLine:
         return send(line(text).substr(0, 1));
       case BoardFault::kTwice:
@@ -163,18 +228,20 @@ class SimulatedTable {
     faulty_ = true;
     if (fault_ == BoardFault::kAlarm) {
       stand();
-      send(line(grbl_ ? "ALARM:1" : "0 alarm the motor is too hot"));
+      send(line(text_()    ? "0 alarm the motor is too hot"
+                : marlin() ? "Error:Printer halted. kill() called!"
+                           : "ALARM:1"));
     }
     if (fault_ == BoardFault::kRestarts) {
       stand();
-      send(line(grbl_ ? "Grbl 1.1h ['$' for help]" : "0 ready"));
+      send(line(greeting()));
     }
   }
 
   void hear(const std::string& text) {
     heard_ = Clock::now();
     if (faulty_ && fault_ == BoardFault::kEcho) send(text + "\r\n");
-    grbl_ ? hear_grbl(text) : hear_text(text);
+    text_() ? hear_text(text) : marlin() ? hear_marlin(text) : hear_grbl(text);
   }
 
   void hear_text(const std::string& text) {
@@ -232,6 +299,12 @@ class SimulatedTable {
   }
 
   void hear_grbl(const std::string& text) {
+    if (text == "$X") {
+      if (locked_) send(line("[MSG:Caution: Unlocked]"));
+      locked_ = false;
+      return answer("ok");
+    }
+    if (locked_) return answer("error:9");
     if (text.rfind("G1X", 0) == 0) {
       turn(plain_number(text.substr(3)), plain_number(text.substr(text.find('F') + 1)) / 60.0,
            true);
@@ -239,29 +312,90 @@ class SimulatedTable {
       begin_fault();
       return;
     }
-    answer(text == "G21" || text == "G91" || text == "$X" ? "ok" : "error:20");
+    answer(text == "G21" || text == "G91" ? "ok" : "error:20");
   }
 
   void hear_grbl_byte(char c) {
     if (c == '?') {
       char reply[96];
-      const char* state = hold_ ? "Hold:0" : (speed_ != 0.0 ? "Run" : "Idle");
-      std::snprintf(reply, sizeof reply, "<%s|MPos:%ld.%03ld,0.000,0.000|FS:0,0>", state,
-                    long(angle_), std::lround(std::abs(angle_ - double(long(angle_))) * 999.0));
+      const char* state = locked_ ? "Alarm" : hold_ ? "Hold:0" : (speed_ != 0.0 ? "Run" : "Idle");
+      std::snprintf(reply, sizeof reply, "<%s|MPos:%s,0.000,0.000|%sFS:0,0>", state,
+                    decimal(angle_, 3).c_str(), kind_ == BoardKind::kGrblHal ? "Bf:100,1023|" : "");
       answer(reply);
     } else if (c == '!') {
       hold_ = speed_ != 0.0;
       stand();
     } else if (c == 0x18) {
+      // These lock themselves when they are reset in the middle of a motion.
+      if (kind_ != BoardKind::kGrbl && (hold_ || speed_ != 0.0)) locked_ = true;
       stand();
       hold_ = false;
-      answer("Grbl 1.1h ['$' for help]");
+      answer(greeting());
+      if (locked_) send(line("[MSG:'$H'|'$X' to unlock]"));
     }
   }
 
+  /// "N3 G91*29": numbered, with a checksum; or as it is.
+  void hear_marlin(const std::string& text) {
+    std::string command = text;
+    if (text[0] == 'N') {
+      const auto star = text.rfind('*');
+      unsigned sum = 0, given = 0;
+      int number = -1;
+      for (std::size_t i = 0; i < std::min(star, text.size()); ++i)
+        sum ^= static_cast<unsigned char>(text[i]);
+      const bool whole = star != std::string::npos &&
+                         std::sscanf(text.c_str() + star + 1, "%u", &given) == 1 &&
+                         std::sscanf(text.c_str() + 1, "%d", &number) == 1;
+      command = text.substr(std::min(text.size(), text.find(' ') + 1));
+      if (whole) command = command.substr(0, command.rfind('*'));
+      const bool restarts = command.rfind("M110", 0) == 0;
+      const bool damaged = fault_ == BoardFault::kDamagesOne && command.rfind("G1", 0) == 0 &&
+                           std::exchange(damage_, false);
+      if (!whole || sum != given || damaged || (number != last_ + 1 && !restarts)) {
+        answer("Error:checksum mismatch, Last Line: " + std::to_string(last_));
+        answer("Resend: " + std::to_string(last_ + 1));
+        return answer("ok");
+      }
+      last_ = number;
+    }
+    if (command.rfind("G1X", 0) == 0) {
+      turn(plain_number(command.substr(3)),
+           plain_number(command.substr(command.find('F') + 1)) / 60.0, true);
+      if (fault_ == BoardFault::kBusy && std::exchange(damage_, false)) {
+        send(line("echo:busy: processing"));
+        late_.push_back({Clock::now() + std::chrono::milliseconds(700), line("ok")});
+        return;
+      }
+      answer("ok");
+      begin_fault();
+      return;
+    }
+    if (command == "M114")
+      answer("X:" + decimal(speed_ != 0.0 ? target_ : angle_, 2) +
+             " Y:0.00 Z:0.00 E:0.00 Count X:" +
+             std::to_string(std::lround(angle_ * kStepsPerUnit)) + " Y:0 Z:0");
+    else if (command == "M410")
+      stand();
+    else if (command == "M92")
+      send(line("echo:  M92 X80.00 Y80.00 Z400.00 E93.00"));
+    else if (command != "G21" && command != "G91" && command != "M211 S0" && command != "M110 N0")
+      answer("echo:Unknown command: \"" + command + "\"");
+    answer("ok");
+  }
+
+  /// With a decimal point whatever the locale.
+  static std::string decimal(double value, int digits) {
+    const long scale = std::lround(std::pow(10.0, digits));
+    const long units = std::lround(std::abs(value) * double(scale));
+    std::string after = std::to_string(units % scale);
+    after.insert(0, std::size_t(digits) - after.size(), '0');
+    return (value < 0.0 ? "-" : "") + std::to_string(units / scale) + "." + after;
+  }
+
   void take(char c) {
-    if (grbl_ && (c == '?' || c == '!' || c == 0x18)) return hear_grbl_byte(c);
-    if (!grbl_ && c == '!') {
+    if (!text_() && !marlin() && (c == '?' || c == '!' || c == 0x18)) return hear_grbl_byte(c);
+    if (text_() && c == '!') {
       stand();
       halted_ = true;
       return;
@@ -274,6 +408,10 @@ class SimulatedTable {
   }
 
   void run() {
+    while (!ending_ && master_ < 0) {
+      pollfd wait{listening_, POLLIN, 0};
+      if (::poll(&wait, 1, 5) > 0) master_ = ::accept(listening_, nullptr, nullptr);
+    }
     while (!ending_) {
       pollfd wait{master_, POLLIN, 0};
       const bool ready = ::poll(&wait, 1, 5) > 0 && (wait.revents & POLLIN) != 0;
@@ -288,30 +426,35 @@ class SimulatedTable {
   }
 
   void misbehave() {
+    while (!late_.empty() && late_.front().first < Clock::now()) {
+      send(late_.front().second);
+      late_.erase(late_.begin());
+    }
     if (!faulty_) return;
     if (fault_ == BoardFault::kEndless) {
       ::fcntl(master_, F_SETFL, O_NONBLOCK);
       for (int i = 0; i < 20; ++i) send("blah blah blah\r\n");
     }
     if (fault_ == BoardFault::kDisappears) {
-      ::close(slave_);
-      ::close(master_);
-      master_ = slave_ = -1;
-    }
-    while (!late_.empty() && late_.front().first < Clock::now()) {
-      send(late_.front().second);
-      late_.erase(late_.begin());
+      for (int* const descriptor : {&slave_, &master_}) {
+        if (*descriptor >= 0) ::close(*descriptor);
+        *descriptor = -1;
+      }
     }
   }
 
-  bool grbl_;
+  static constexpr double kStepsPerUnit = 80.0;
+
+  BoardKind kind_;
   BoardFault fault_;
-  int master_ = -1, slave_ = -1;
+  int master_ = -1, slave_ = -1, listening_ = -1;
+  int last_ = 0;        // number of a line
+  bool damage_ = true;  // not done yet
   std::string port_, input_;
   std::mutex mutex_;
   std::atomic<bool> ending_ = false, faulty_, told_ = false;
   double angle_ = 0.0, speed_ = 0.0, target_ = 0.0;
-  bool aimed_ = false, halted_ = false, hold_ = false;
+  bool aimed_ = false, halted_ = false, hold_ = false, locked_ = false;
   Clock::time_point moved_ = Clock::now(), heard_ = Clock::now(), began_ = Clock::now();
   std::vector<std::pair<Clock::time_point, std::string>> late_;
   std::thread thread_;

@@ -20,6 +20,7 @@ from table import Table
 SMALL = "virtual:cylinder?height=200mm&sensor=kinect-v1&distance=3m&prepared=15&speed=720deg/s"
 TIMED = ("--quiet", "--min-free", "0")
 KILLS = int(os.environ.get("TURNSCAN_TEST_KILLS", "12"))
+RESUMES = int(os.environ.get("TURNSCAN_TEST_RESUMES", "1"))
 
 
 def frames_of(recording):
@@ -318,6 +319,22 @@ class Scan(harness.TestCase):
         self.assert_closed()
         self.assertAlmostEqual(self.f_score("doll.3mf"), self.f_score("whole.3mf"), delta=0.005)
 
+    def test_turns_that_are_killed_at_random_moments_are_resumed(self):
+        device = (f"virtual:{self.truth()}?sensor={SENSOR}&fps=12&speed=24deg/s&calibration=true"
+                  "&realtime=1&prepared=200")
+        self.ok("scan", "--device", device, "-o", "whole.3mf", "--no-wait", "--min-free", "0",
+                *self.FAST)
+        whole = self.f_score("whole.3mf")
+        chance = random.Random(2)
+        for kill in range(RESUMES):
+            at = chance.randrange(2, 170)
+            with self.subTest(kill=kill, at=at):
+                self.scan_killed_and_resumed(device, at)
+                self.assertAlmostEqual(self.f_score("doll.3mf"), whole, delta=0.005)
+            harness.remove(self.dir / "doll.recording")
+            harness.remove(self.dir / "state")
+            (self.dir / "doll.3mf").unlink(missing_ok=True)
+
     def test_seconds_bound_the_wait_for_an_object(self):
         self.refused(FAILED, "scan", "--device", self.device + "&calibration=true&appears=60s",
                      "--seconds", "3", "-o", "doll.3mf", *self.FAST,
@@ -558,6 +575,32 @@ class Turntable(harness.TestCase):
                     self.assertEqual((self.dir / "whole.ply").read_bytes(),
                                      (self.dir / "r.ply").read_bytes())
                 shutil.rmtree(self.dir / "r")
+
+    def test_stops_that_are_killed_at_random_moments_are_resumed(self):
+        def made(name):
+            self.ok("reconstruct", name, "-o", f"{name}.ply", *harness.COARSE)
+            return (self.dir / f"{name}.ply").read_bytes()
+
+        self.ok(*self.stop_and_go(self.table(), "-o", "whole"))
+        whole = made("whole")
+        chance = random.Random(1)
+        for kill in range(RESUMES):
+            at = chance.randrange(35)
+            with self.subTest(kill=kill, at=at):
+                table = self.table()
+                self.end_at(at, signal.SIGKILL, *self.stop_and_go(table, "-o", "r"))
+                time.sleep(chance.uniform(0.0, 0.2))
+                self.ok(*self.stop_and_go(table, "--resume", "r"))
+                self.assertEqual(made("r"), whole)
+            shutil.rmtree(self.dir / "r")
+
+    def test_one_that_was_resumed_and_killed_is_replaced(self):
+        table = self.table()
+        self.end_at(3, signal.SIGKILL, *self.stop_and_go(table, "-o", "r"))
+        self.end_at(9, signal.SIGKILL, *self.stop_and_go(table, "--resume", "r"))
+        self.ok(*self.stop_and_go(self.table(), "-o", "r", "--overwrite-unfinished"))
+        self.assertEqual(len(frames_of(self.dir / "r")), 36)
+        self.assertEqual([p.name for p in (self.dir / "r").glob("*.before-repair*")], [])
 
     def test_stops_of_a_live_sensor_are_resumed_with_the_next_one(self):
         table = self.table()

@@ -84,8 +84,13 @@ TURNSCAN_FUZZ_TARGET(motor_replies) {
   terminal.send(replies_in({reinterpret_cast<const char*>(data) + 1, size - 1}));
   MotorOptions options;
   options.timeout_s = 0.02;
-  auto board = data[0] == 't' ? motor::open_text_board(*port, options)
-                              : motor::open_grbl_board(*port, options, {});
+  auto board =
+      data[0] == 't'
+          ? motor::open_text_board(*port, options)
+          : motor::open_gcode_board(
+                *port, options,
+                *motor::dialect_of(data[0] == 'm' ? MotorProtocol::kMarlin : MotorProtocol::kGrbl),
+                {});
   if (!fine(board)) return 0;
   const auto status = (*board)->status();
   if (fine(status) && !(std::abs(status->angle_deg) <= kMillionTurns_deg)) std::abort();

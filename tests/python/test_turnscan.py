@@ -139,6 +139,65 @@ class Reconstructing(InAFolder):
         with self.assertRaises(turnscan.Error):
             frames.add(np.zeros(5, np.uint16))
 
+    def refused(self, says, call, *args, **kwargs):
+        with self.assertRaises((turnscan.Error, ValueError, TypeError, MemoryError)) as caught:
+            call(*args, **kwargs)
+        self.assertIn(says, str(caught.exception))
+
+    def test_arrays_of_any_layout_are_read_and_what_numpy_would_cast_silently_is_refused(self):
+        camera = turnscan.Intrinsics(8, 6, 10, 10, 4, 3)
+        frames = turnscan.Frames([turnscan.Sensor(camera)])
+        good = np.arange(1000, 1048, dtype=np.uint16).reshape(6, 8)
+        frozen = good.copy()
+        frozen.flags.writeable = False
+        for depth in (good, frozen, np.asfortranarray(good), good[::-1, ::-1], good.astype(">u2"),
+                      good.astype(np.int64), np.broadcast_to(np.uint16(7), (6, 8)),
+                      good.repeat(2, axis=1)[:, ::2]):
+            frames.add(depth)
+            self.assertTrue((frames[len(frames) - 1].depth == depth).all())
+        count = len(frames)
+        huge = (1 << 20, 1 << 20)
+        for says, depth in (
+                ("16 bits", good.astype(np.int32) - 1001), ("16 bits", good.astype(np.uint32) + 65536),
+                ("numbers", good.astype("U4")), ("numbers", good.astype(complex)),
+                ("numbers", good > 0), ("numbers", good.astype(object)),
+                ("shape", good[None]), ("shape", np.zeros((0, 8), np.uint16)), ("shape", good[:5]),
+                ("shape", np.broadcast_to(np.uint16(7), huge)),
+                ("shape", np.broadcast_to(np.float64(7), huge))):
+            self.refused(says, frames.add, depth)
+        for says, wrong in (
+                ("angle", {"angle": math.nan}), ("angle", {"angle": math.inf}),
+                ("time", {"time": math.inf}), ("sensor", {"sensor": 1}), ("sensor", {"sensor": -1}),
+                ("pose", {"pose": np.full((4, 4), np.nan)}), ("pose", {"pose": np.eye(3)}),
+                ("pose", {"pose": np.eye(4) * 1j}), ("pose", {"pose": np.eye(4).astype(str)}),
+                ("color", {"color": np.zeros((2, 2, 3), np.uint8)}),
+                ("color", {"color": np.full((6, 8, 3), 300)}),
+                ("color", {"color": np.full((6, 8, 3), 0.5)}),
+                ("color", {"color": np.broadcast_to(np.uint8(1), (*huge, 3))})):
+            self.refused(says, frames.add, good, **wrong)
+        self.assertEqual(len(frames), count, "what was refused is not kept")
+        for unit in (0, -1, math.nan, math.inf, 1e300):
+            self.refused("depth_unit", turnscan.Sensor, camera, depth_unit=unit)
+            self.refused("depth_unit", turnscan.Stream, depth_unit=unit)
+        for axis in ((0, 0, 0), (math.nan, 0, 1), (math.inf, 0, 0)):
+            self.refused("axis", turnscan.Turntable, axis, (0, 0, 0))
+
+    def test_meshes_of_any_layout_are_read_and_what_numpy_would_cast_silently_is_refused(self):
+        vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
+        triangles = np.array([[0, 1, 2]])
+        for corners in (vertices, vertices.astype(float), np.asfortranarray(vertices),
+                        vertices[::-1, ::-1], vertices.astype(int)):
+            made = turnscan.Mesh(corners, triangles, colors=np.full((3, 3), 255))
+            self.assertTrue((made.vertices == corners).all())
+        for says, wrong in (("vertices", vertices.astype(str)), ("vertices", vertices.astype(complex)),
+                            ("finite", vertices * np.nan), ("vertices", vertices[:, :2])):
+            self.refused(says, turnscan.Mesh, wrong, triangles)
+        for wrong in ([[-1, 1, 2]], [[0.5, 1, 2]], [[1 << 32, 1, 2]], [["0", "1", "2"]], [[0, 1]]):
+            self.refused("triangles", turnscan.Mesh, vertices, np.array(wrong))
+        self.refused("3", turnscan.Mesh, vertices, np.array([[0, 1, 3]]))
+        for wrong in (np.full((3, 3), 256), np.full((3, 3), -1), np.full((2, 3), 1), np.eye(3) / 2):
+            self.refused("colors", turnscan.Mesh, vertices, triangles, colors=wrong)
+
     def test_frames_keep_every_pixel_and_little_memory(self):
         camera = turnscan.Intrinsics(67, 41, 60, 60, 33, 20)
         frames = turnscan.Frames([turnscan.Sensor(camera)])

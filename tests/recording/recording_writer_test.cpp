@@ -9,6 +9,8 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/recording/recording.hpp>
+#include <turnscan/recording/repair.hpp>
+#include <turnscan/recording/unfinished.hpp>
 
 #include "tests/io/scarcity.hpp"
 #include "tests/recording/sequences.hpp"
@@ -112,6 +114,23 @@ TEST(RecordingWriter, GoesOnWithARecordingThatIsComplete) {
   EXPECT_EQ(recording->frames()[2].pass, 1u);
   EXPECT_EQ(recording->capture_settings().at("gain"), "2");
   EXPECT_EQ(recording->read(0)->depth.pixels, depth_frame(0).depth.pixels);
+}
+
+TEST(RecordingWriter, OneThatIsKilledAfterItWasResumedIsUnfinishedAsBefore) {
+  for (const bool was_finished : {false, true}) {
+    const TempFolder temp;
+    auto writer = RecordingWriter::create(temp / "r", small_header());
+    ASSERT_TRUE(writer && writer->append(depth_frame(0)));
+    writer = tl::unexpected<Error>(Error());
+    EXPECT_TRUE(is_unfinished_recording(temp / "r"));
+    ASSERT_TRUE(repair_recording(temp / "r"));
+    writer = RecordingWriter::extend(temp / "r", ColorFileFormat::kPng, 1, was_finished);
+    ASSERT_TRUE(writer && writer->append(depth_frame(1)));
+    writer = tl::unexpected<Error>(Error());
+    EXPECT_EQ(is_unfinished_recording(temp / "r"), !was_finished);
+    EXPECT_EQ(remove_unfinished_recording(temp / "r").has_value(), !was_finished);
+    EXPECT_EQ(fs::exists(temp / "r" / "frames.csv"), was_finished);
+  }
 }
 
 TEST(RecordingWriter, AStretchBeginsWhereARecordingWasResumed) {

@@ -5,12 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include <QApplication>
 #include <QDir>
+#include <QDirIterator>
 #include <QFile>
 #include <QFileInfo>
+#include <QMessageBox>
 #include <QPushButton>
+#include <QSettings>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QTimer>
 #include <array>
 #include <map>
 #include <turnscan/core/random.hpp>
@@ -212,6 +217,67 @@ TEST(KilledStudio, ARecordingKeepsEveryFrameThatItsTableListed) {
     most = std::max(most, opened->frames().size());
   }
   EXPECT_GT(most, 0u);
+}
+
+/// Answers the next question with the button of this name.
+class Answer : public QTimer {
+ public:
+  explicit Answer(const QString& name) {
+    setInterval(50);
+    connect(this, &QTimer::timeout, this, [this, name] {
+      auto* question = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+      if (!question) return;
+      stop();
+      asked = question->text();
+      for (QAbstractButton* button : question->buttons())
+        if (button->text() == name) QTest::mouseClick(button, Qt::LeftButton);
+    });
+    start();
+  }
+  QString asked;
+};
+
+TEST(KilledStudio, ARecordingIsOfferedByTheNextStartAndGoesOn) {
+  const QTemporaryDir folder;
+  (void)kill_in_the_middle("Victim.DISABLED_Records", folder.path(), 2000);
+  const QString recording = folder.filePath("recording");
+  const auto killed = Recording::open(recording.toStdString());
+  ASSERT_TRUE(killed.has_value());
+  const std::size_t before = killed->frames().size();
+  ASSERT_GT(before, 3u);
+  // The next start has the settings of the killed one.
+  QDirIterator file(folder.path(), {"*.conf"}, QDir::Files | QDir::Hidden,
+                    QDirIterator::Subdirectories);
+  ASSERT_TRUE(file.hasNext());
+  QSettings().setValue("scanner/running",
+                       QSettings(file.next(), QSettings::IniFormat).value("scanner/running"));
+  QSettings().setValue("scanner/reconstruct", false);
+  EXPECT_EQ(RecordPanel::unfinished(), recording);
+  MainWindow window;
+  show_window(window, {1000, 700});
+  {
+    const Answer answer("Go on");
+    window.offer_unfinished_recording();
+    EXPECT_TRUE(answer.asked.contains(QString("has %1 frame").arg(before)))
+        << answer.asked.toStdString();
+  }
+  auto* record = qobject_cast<QPushButton*>(named(window.scanner(), "record"));
+  ASSERT_TRUE(wait_for([&] { return record->isEnabled(); }));
+  EXPECT_EQ(record->text(), "Go on with the recording");
+  keep_picture(window, "go-on");
+  ASSERT_TRUE(click(record));
+  ASSERT_TRUE(wait_for([&] { return lines_of(recording + "/frames.csv") > before + 5; }));
+  ASSERT_TRUE(click(record));
+  ASSERT_TRUE(wait_for([&] {
+    const auto now = Recording::open(recording.toStdString());
+    return now && now->complete();
+  }));
+  const auto now = Recording::open(recording.toStdString());
+  EXPECT_GT(now->frames().size(), before);
+  EXPECT_EQ(now->frames()[before - 1].stretch, 0u);
+  EXPECT_EQ(now->frames().back().stretch, 1u);
+  EXPECT_EQ(RecordPanel::unfinished(), QString());
+  QSettings().remove("scanner");
 }
 
 std::map<QString, QByteArray> files_of(const QString& folder) {

@@ -306,7 +306,8 @@ bool shows_sides(const QImage& image) {
 }
 
 TEST_F(Scanner, AMotorTurnsTheTableAndWhatIsSeenIsShown) {
-  turnscan::testing::SimulatedTable table(true, turnscan::testing::BoardFault::kNone);
+  turnscan::testing::SimulatedTable table(turnscan::testing::BoardKind::kGrbl,
+                                          turnscan::testing::BoardFault::kNone);
   mode().recording().motor().set_port(QString::fromStdString(table.port()));
   mode().set_device("virtual:letter-a?sensor=kinect-v2&calibration=true&realtime=1");
   ASSERT_TRUE(click(button_with(mode(), "Play")));

@@ -2544,6 +2544,25 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
         <translation>Hay una grabación en curso; termina y se conserva lo grabado</translation>
     </message>
     <message>
+        <source>Go on with the recording?</source>
+        <translation>¿Continuar la grabación?</translation>
+    </message>
+    <message numerus="yes">
+        <source>The last session ended while it recorded. %1 has %n frame(s).</source>
+        <translation>
+            <numerusform>La última sesión terminó mientras grababa. %1 tiene %n imagen.</numerusform>
+            <numerusform>La última sesión terminó mientras grababa. %1 tiene %n imágenes.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Continuar</translation>
+    </message>
+    <message>
+        <source>Leave it</source>
+        <translation>Dejarla</translation>
+    </message>
+    <message>
         <source>Restore the last session?</source>
         <translation>¿Restaurar la última sesión?</translation>
     </message>
@@ -2935,6 +2954,14 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     <message>
         <source>Folder of the recording</source>
         <translation>Carpeta de la grabación</translation>
+    </message>
+    <message>
+        <source>The recording in %1 was ended early. It goes on with the same device and the same options.</source>
+        <translation>La grabación en %1 terminó antes de tiempo. Continúa con el mismo dispositivo y las mismas opciones.</translation>
+    </message>
+    <message>
+        <source>Go on with the recording</source>
+        <translation>Continuar la grabación</translation>
     </message>
     <message>
         <source>New recording instead</source>

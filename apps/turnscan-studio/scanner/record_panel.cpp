@@ -12,6 +12,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/recording/unfinished.hpp>
 #include <turnscan/workflow/output_file.hpp>
 
 #include "app/paths.hpp"
@@ -37,6 +38,8 @@ struct RecordPanel::Options {
 };
 
 namespace {
+
+constexpr const char* kRunning = "scanner/running";  // folder of the last recording
 
 QString speed_settings(const QString& device) {
   return "scanner/speed-of/" + QString::fromLatin1(QUrl::toPercentEncoding(device));
@@ -100,18 +103,38 @@ void RecordPanel::build_next_pass(QVBoxLayout* layout) {
                   tr("What is recorded next is another object, or this one anew"), this);
   layout->addWidget(advice_);
   layout->addWidget(leave_);
-  connect(leave_, &QPushButton::clicked, this, [this] { set_next_pass({}, {}); });
+  connect(leave_, &QPushButton::clicked, this, [this] {
+    if (resumes_) leave_unfinished();
+    set_next_pass({}, {});
+  });
   set_next_pass({}, {});
 }
 
 void RecordPanel::set_next_pass(const QString& folder, const QString& advice) {
   next_pass_ = folder;
+  resumes_ = false;
   advice_->setVisible(!folder.isEmpty());
   leave_->setVisible(!folder.isEmpty());
   folder_->setEnabled(folder.isEmpty());
   if (!folder.isEmpty())
     advice_->show_text(tr("The next pass goes into %1. %2").arg(shown_path(folder), advice));
 }
+
+void RecordPanel::set_unfinished(const QString& folder) {
+  set_next_pass(folder, {});
+  resumes_ = true;
+  advice_->show_text(
+      tr("The recording in %1 was ended early. It goes on with the same device and the "
+         "same options.")
+          .arg(shown_path(folder)));
+}
+
+QString RecordPanel::unfinished() {
+  const QString folder = QSettings().value(kRunning).toString();
+  return !folder.isEmpty() && is_unfinished_recording(folder.toStdString()) ? folder : QString();
+}
+
+void RecordPanel::leave_unfinished() { QSettings().remove(kRunning); }
 
 void RecordPanel::build_options() {
   CaptureOptions& capture = options_->capture;
@@ -169,8 +192,12 @@ std::optional<RecordingRequest> RecordPanel::request() {
   }
   RecordingRequest request{folder.toStdString(), options_->capture, motor_->port(),
                            motor_->options()};
-  request.options.add_pass = !next_pass_.isEmpty();
+  request.options.add_pass = !next_pass_.isEmpty() && !resumes_;
+  request.options.resume = resumes_;
   if (!request.motor_port.empty()) request.options.stops = motor_->stops();
+  QSettings settings;
+  settings.setValue(kRunning, folder);
+  settings.sync();  // the program may be killed
   return request;
 }
 
@@ -208,6 +235,7 @@ QString RecordPanel::seen_text(const CoverageSummary& seen) const {
 void RecordPanel::show_state(const LiveState& state, bool open) {
   record_->setEnabled(open);
   record_->setText(state.recording        ? tr("Stop recording")
+                   : resumes_             ? tr("Go on with the recording")
                    : next_pass_.isEmpty() ? tr("Record")
                                           : tr("Record another side"));
   motor_->set_in_use(state.recording);

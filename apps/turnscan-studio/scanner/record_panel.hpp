@@ -31,6 +31,12 @@ class RecordPanel : public QWidget {
   void set_folder(const QString& folder);
   /// Adds the next recording to the one in this folder; empty: makes a new recording.
   void set_next_pass(const QString& folder, const QString& advice);
+  /// Goes on with the unfinished recording in this folder.
+  void set_unfinished(const QString& folder);
+  /// The folder of the last recording if its program ended before it did; else empty.
+  static QString unfinished();
+  /// Offers it no more.
+  static void leave_unfinished();
   /// Each device's table has its own speed; a speed typed before the first device was set belongs
   /// to that one.
   void set_device(const QString& uri);
@@ -59,7 +65,8 @@ class RecordPanel : public QWidget {
 
   std::unique_ptr<Options> options_;
   QString device_;
-  QString next_pass_;  ///< folder to which a pass is added; empty: none
+  QString next_pass_;     ///< folder to which a pass is added; empty: none
+  bool resumes_ = false;  ///< what is added is the rest of its first pass
   QWidget* footer_;
   ParagraphLabel* advice_;
   QPushButton* leave_;

@@ -10,6 +10,7 @@
 #include <QTimer>
 #include <QVBoxLayout>
 #include <turnscan/capture/source/plugins.hpp>
+#include <turnscan/recording/recording.hpp>
 
 #include "app/jobs.hpp"
 #include "app/paths.hpp"
@@ -338,6 +339,16 @@ void ScannerMode::scan_another_side(const AnotherSide& side) {
   if (!feed_->running()) toggle_play();
   if (side.turn) feed_->lay_object(*side.turn);
   set_still(false);
+  reveal(record_);
+}
+
+void ScannerMode::resume_recording(const QString& folder) {
+  if (const auto recording = Recording::open(folder.toStdString())) {
+    const std::string& source = recording->header().source;
+    set_device(QString::fromStdString(source.substr(0, source.find('\n'))));
+  }
+  record_->set_unfinished(folder);
+  if (!feed_->running()) toggle_play();
   reveal(record_);
 }
 

@@ -47,6 +47,8 @@ class ScannerMode : public Mode {
 
   /// Shows how to place the object, repositions it if the source can, and continues its recording.
   void scan_another_side(const AnotherSide& side);
+  /// Plays the device of an unfinished recording, which the next click goes on with.
+  void resume_recording(const QString& folder);
   void set_device(const QString& uri);
   RecordPanel& recording() { return *record_; }
   bool is_recording() const { return recording_; }

@@ -17,11 +17,13 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/recording/recording.hpp>
 
 #include "app/jobs.hpp"
 #include "app/paths.hpp"
 #include "explorer/explorer.hpp"
 #include "explorer/session.hpp"
+#include "scanner/record_panel.hpp"
 #include "scanner/scanner.hpp"
 #include "simulator/simulator.hpp"
 #include "view/scene_view.hpp"
@@ -265,6 +267,26 @@ void MainWindow::offer_lost_session() {
   if (question.clickedButton() != restore) return;
   show_mode("explorer");
   explorer_->restore_session(*lost);
+}
+
+void MainWindow::offer_unfinished_recording() {
+  const QString folder = RecordPanel::unfinished();
+  if (folder.isEmpty()) return;
+  const auto recording = Recording::open(folder.toStdString());
+  const int frames = recording ? int(recording->frames().size()) : 0;
+  QMessageBox question(
+      QMessageBox::Question, tr("Go on with the recording?"),
+      tr("The last session ended while it recorded. %1 has %n frame(s).", nullptr, frames)
+          .arg(shown_path(folder)),
+      QMessageBox::NoButton, this);
+  const auto* go_on = question.addButton(tr("Go on"), QMessageBox::AcceptRole);
+  const auto* leave = question.addButton(tr("Leave it"), QMessageBox::DestructiveRole);
+  question.addButton(tr("Ask again later"), QMessageBox::RejectRole);
+  question.exec();
+  if (question.clickedButton() == leave) RecordPanel::leave_unfinished();
+  if (question.clickedButton() != go_on) return;
+  show_mode("scanner");
+  scanner_->resume_recording(folder);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

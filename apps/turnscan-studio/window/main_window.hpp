@@ -40,6 +40,8 @@ class MainWindow : public QMainWindow {
   void set_close_question(CloseQuestion question) { ask_to_close_ = std::move(question); }
   /// Offers to restore a session that did not end properly, if there is one.
   void offer_lost_session();
+  /// Offers to go on with a recording that did not end properly, if there is one.
+  void offer_unfinished_recording();
 
   JobRunner& jobs() { return *jobs_; }
   ViewSettings& settings() { return *settings_; }

@@ -26,7 +26,8 @@ void declare_capture(CommandLine& line, CaptureSetup& setup) {
   line.option("--turntable", "FILE.json", setup.turntable_file,
               "Calibration of the turntable: a file saved by turnscan calibrate");
   line.option("--motor", "PORT", setup.motor_port,
-              "Turn the table with the motor controller at this serial port, e.g. /dev/ttyUSB0 "
+              "Turn the table with the motor controller at this serial port, e.g. /dev/ttyUSB0, or "
+              "tcp:HOST:PORT "
               "(see docs/reference/motor.md)");
   line.allow_config();
   line.group("stops", "Recording at stops, with --motor", describe(setup.options.stops));

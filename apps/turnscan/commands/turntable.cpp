@@ -35,7 +35,8 @@ class TurntableCommand : public Command {
     line.positional("ACTION", action_,
                     "rotate: turn by an angle; speed: turn continuously; stop; status: report what "
                     "the table does");
-    line.required_option("--port", "PORT", port_, "Serial port, e.g. /dev/ttyUSB0");
+    line.required_option("--port", "PORT", port_,
+                         "Serial port, e.g. /dev/ttyUSB0, or tcp:HOST:PORT");
     line.allow_config();
     line.group("turn", "Turning", describe(turn_));
     line.group("motor", "Motor", describe(motor_));

@@ -79,10 +79,12 @@ class RecordingWriter {
   /// Existing frames are not modified. Fails with kNotFound if there is no recording, with
   /// kInvalidOption if it is not complete, with kUnsupported if another program wrote its table,
   /// with kIo while another program writes it, and as parsing its files does.
-  /// resumed_at: index of the first frame of a new stretch (FrameInfo::stretch).
+  /// resumed_at: index of the first frame of a new stretch (FrameInfo::stretch). was_finished: else
+  /// it counts as one that its writer never finished, as before it was repaired.
   static Result<RecordingWriter> extend(const std::filesystem::path& folder,
                                         ColorFileFormat color = ColorFileFormat::kPng,
-                                        std::optional<std::uint32_t> resumed_at = {});
+                                        std::optional<std::uint32_t> resumed_at = {},
+                                        bool was_finished = true);
   RecordingWriter(RecordingWriter&&) noexcept;
   RecordingWriter& operator=(RecordingWriter&&) noexcept;
   /// Leaves the recording as it is, marked incomplete unless finish() was called.

@@ -178,7 +178,7 @@ struct RecordingWriter::State {
   bool finished = false;
 
   Result<> create_files();
-  Result<> reopen_files(std::optional<std::uint32_t> resumed_at);
+  Result<> reopen_files(std::optional<std::uint32_t> resumed_at, bool was_finished);
   /// Writes the frame's files and returns its line. May run on several threads at once.
   Result<std::string> write_files(const Frame& frame) const;
   Result<std::string> write_color(const Frame& frame, const std::string& number) const;
@@ -258,7 +258,8 @@ Result<> RecordingWriter::State::create_files() {
 
 /// The recording is marked incomplete with the number of frames that were complete before, which
 /// distinguishes it from one that never was complete.
-Result<> RecordingWriter::State::reopen_files(std::optional<std::uint32_t> resumed_at) {
+Result<> RecordingWriter::State::reopen_files(std::optional<std::uint32_t> resumed_at,
+                                              bool was_finished) {
   const fs::path json = folder / "recording.json", csv = folder / "frames.csv";
   TURNSCAN_ASSIGN(const std::string text, read_file(json, kMaxDescriptionBytes));
   TURNSCAN_ASSIGN(description, parse_recording_json(text));
@@ -276,7 +277,8 @@ Result<> RecordingWriter::State::reopen_files(std::optional<std::uint32_t> resum
   for (const FrameRow& row : frames.rows) indices.insert(row.info.index);
   TURNSCAN_TRY(table.reopen(csv, lines.size()));
   description.complete = false;
-  description.frame_count = static_cast<std::uint32_t>(indices.size());
+  description.frame_count.reset();
+  if (was_finished) description.frame_count = static_cast<std::uint32_t>(indices.size());
   if (resumed_at) description.resumed_at.push_back(*resumed_at);
   return write_file_atomically(json, recording_json(description));
 }
@@ -319,11 +321,12 @@ Result<RecordingWriter> RecordingWriter::create(const fs::path& folder,
 }
 
 Result<RecordingWriter> RecordingWriter::extend(const fs::path& folder, ColorFileFormat color,
-                                                std::optional<std::uint32_t> resumed_at) {
+                                                std::optional<std::uint32_t> resumed_at,
+                                                bool was_finished) {
   auto state = std::make_unique<State>();
   state->folder = folder;
   state->color = color;
-  TURNSCAN_TRY(state->reopen_files(resumed_at));
+  TURNSCAN_TRY(state->reopen_files(resumed_at, was_finished));
   return RecordingWriter(std::move(state));
 }
 

@@ -19,6 +19,9 @@ constexpr std::array<const char*, 6> kParts{kDescription, "frames.csv", "depth",
                                             "color",      "points",     "truth"};
 
 bool is_part(const std::string& name) {
+  // A repair keeps what it replaced; a recording is repaired before it is resumed.
+  for (const char* kept : {"recording.json.before-repair", "frames.csv.before-repair"})
+    if (name.starts_with(kept)) return true;
   return recording_format::is_leftover(name) ||
          std::find(kParts.begin(), kParts.end(), name) != kParts.end();
 }

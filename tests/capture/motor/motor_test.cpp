@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
+#include <array>
 #include <numbers>
 #include <turnscan/capture/motor/motor.hpp>
 
@@ -11,6 +11,7 @@ namespace turnscan {
 namespace {
 
 using testing::BoardFault;
+using testing::BoardKind;
 using ::testing::HasSubstr;
 using testing::SimulatedTable;
 
@@ -23,11 +24,20 @@ MotorOptions quick() {
   return options;
 }
 
-class BothBoards : public ::testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Motor, BothBoards, ::testing::Bool(),
-                         [](const auto& test) { return test.param ? "Grbl" : "Text"; });
+const char* name_of(BoardKind kind) {
+  constexpr std::array kNames{"Text", "Grbl", "GrblHal", "FluidNcTcp", "Marlin", "MarlinTcp"};
+  return kNames[std::size_t(kind)];
+}
 
-TEST_P(BothBoards, RotatesByAnAngleAndStandsThere) {
+const auto kBoards =
+    ::testing::Values(BoardKind::kText, BoardKind::kGrbl, BoardKind::kGrblHal, BoardKind::kFluidNc,
+                      BoardKind::kMarlin, BoardKind::kMarlinTcp);
+
+class AnyBoard : public ::testing::TestWithParam<BoardKind> {};
+INSTANTIATE_TEST_SUITE_P(Motor, AnyBoard, kBoards,
+                         [](const auto& test) { return name_of(test.param); });
+
+TEST_P(AnyBoard, RotatesByAnAngleAndStandsThere) {
   SimulatedTable table(GetParam(), BoardFault::kNone);
   auto motor = Motor::open(table.port(), quick(), RunContext());
   ASSERT_TRUE(motor) << motor.error().text();
@@ -42,7 +52,7 @@ TEST_P(BothBoards, RotatesByAnAngleAndStandsThere) {
   EXPECT_NEAR(status->angle_rad, 20.0 * kDeg, 0.01 * kDeg);
 }
 
-TEST_P(BothBoards, SpinsUntilItIsStopped) {
+TEST_P(AnyBoard, SpinsUntilItIsStopped) {
   SimulatedTable table(GetParam(), BoardFault::kNone);
   auto motor = Motor::open(table.port(), quick(), RunContext());
   ASSERT_TRUE(motor);
@@ -59,7 +69,7 @@ TEST_P(BothBoards, SpinsUntilItIsStopped) {
   EXPECT_TRUE(motor->rotate(5.0 * kDeg, 80.0 * kDeg, RunContext()));
 }
 
-TEST_P(BothBoards, StopsByItselfWhenNobodyWatches) {
+TEST_P(AnyBoard, StopsByItselfWhenNobodyWatches) {
   SimulatedTable table(GetParam(), BoardFault::kNone);
   auto motor = Motor::open(table.port(), quick(), RunContext());
   ASSERT_TRUE(motor->spin(20.0 * kDeg));
@@ -67,7 +77,7 @@ TEST_P(BothBoards, StopsByItselfWhenNobodyWatches) {
   EXPECT_TRUE(table.stands_within(4.0));
 }
 
-TEST_P(BothBoards, TheDestructorStopsTheTable) {
+TEST_P(AnyBoard, TheDestructorStopsTheTable) {
   SimulatedTable table(GetParam(), BoardFault::kNone);
   {
     auto motor = Motor::open(table.port(), quick(), RunContext());
@@ -77,7 +87,7 @@ TEST_P(BothBoards, TheDestructorStopsTheTable) {
   EXPECT_TRUE(table.stands_within(0.3));
 }
 
-TEST_P(BothBoards, CancellingStopsTheTable) {
+TEST_P(AnyBoard, CancellingStopsTheTable) {
   SimulatedTable table(GetParam(), BoardFault::kNone);
   auto motor = Motor::open(table.port(), quick(), RunContext());
   const RunContext context;
@@ -92,7 +102,7 @@ TEST_P(BothBoards, CancellingStopsTheTable) {
   EXPECT_TRUE(table.stands_within(0.3));
 }
 
-TEST_P(BothBoards, ReversedTurnsTheOtherWay) {
+TEST_P(AnyBoard, ReversedTurnsTheOtherWay) {
   SimulatedTable table(GetParam(), BoardFault::kNone);
   MotorOptions options = quick();
   options.reversed = true;
@@ -102,7 +112,7 @@ TEST_P(BothBoards, ReversedTurnsTheOtherWay) {
   EXPECT_NEAR(motor->status()->angle_rad, 10.0 * kDeg, 0.01 * kDeg);
 }
 
-TEST_P(BothBoards, RefusesSpeedsThatAreTooFastOrNone) {
+TEST_P(AnyBoard, RefusesSpeedsThatAreTooFastOrNone) {
   SimulatedTable table(GetParam(), BoardFault::kNone);
   auto motor = Motor::open(table.port(), quick(), RunContext());
   for (const double speed : {0.0, 100.0, std::numeric_limits<double>::quiet_NaN()})
@@ -115,7 +125,7 @@ struct Outcome {
   BoardFault fault;
   const char* name;
   const char* text;  ///< nullptr: it does no harm
-  const char* grbl;
+  const char* gcode;
 };
 void PrintTo(const Outcome& outcome, std::ostream* out) { *out << outcome.name; }
 
@@ -127,7 +137,7 @@ constexpr Outcome kOutcomes[] = {
     {BoardFault::kWrongReply, "WrongReply", "not understood", "did not answer"},
     {BoardFault::kHalfLine, "HalfLine", "half a line", "half a line"},
     {BoardFault::kTwice, "Twice", nullptr, nullptr},
-    {BoardFault::kAlarm, "Alarm", "too hot", "ALARM:1"},
+    {BoardFault::kAlarm, "Alarm", "too hot", "the table reports"},
     {BoardFault::kRestarts, "Restarts", "restarted", "restarted"},
     {BoardFault::kEcho, "Echo", nullptr, nullptr},
     {BoardFault::kEndless, "Endless", "without end", "without end"},
@@ -145,24 +155,24 @@ Result<> spin_for_a_while(Motor& motor) {
   return motor.stop();
 }
 
-class Misbehaviour : public ::testing::TestWithParam<std::tuple<bool, Outcome>> {};
+class Misbehaviour : public ::testing::TestWithParam<std::tuple<BoardKind, Outcome>> {};
 INSTANTIATE_TEST_SUITE_P(Motor, Misbehaviour,
-                         ::testing::Combine(::testing::Bool(), ::testing::ValuesIn(kOutcomes)),
+                         ::testing::Combine(kBoards, ::testing::ValuesIn(kOutcomes)),
                          [](const auto& test) {
                            return std::get<1>(test.param).name +
-                                  std::string(std::get<0>(test.param) ? "Grbl" : "Text");
+                                  std::string(name_of(std::get<0>(test.param)));
                          });
 
 TEST_P(Misbehaviour, EndsInAStandingTableAndAClearMessage) {
-  const auto& [grbl, outcome] = GetParam();
-  SimulatedTable table(grbl, outcome.fault);
+  const auto& [kind, outcome] = GetParam();
+  SimulatedTable table(kind, outcome.fault);
   auto motor = Motor::open(table.port(), quick(), RunContext());
   ASSERT_TRUE(motor) << motor.error().text();
   const auto done = spin_for_a_while(*motor);
   EXPECT_TRUE(table.was_told_to_turn());
   // A table without its cable cannot be told to stop: it does so by itself, within two seconds.
   EXPECT_TRUE(table.stands_within(outcome.fault == BoardFault::kDisappears ? 4.0 : 0.5));
-  const char* words = grbl ? outcome.grbl : outcome.text;
+  const char* words = kind == BoardKind::kText ? outcome.text : outcome.gcode;
   if (words == nullptr) {
     EXPECT_TRUE(done) << done.error().text();
     return;
@@ -175,11 +185,48 @@ TEST_P(Misbehaviour, EndsInAStandingTableAndAClearMessage) {
 }
 
 TEST(Motor, ABoardThatNeverAnswersIsNotOpened) {
-  SimulatedTable table(false, BoardFault::kSilent, true);
+  SimulatedTable table(BoardKind::kText, BoardFault::kSilent, true);
   const auto motor = Motor::open(table.port(), quick(), RunContext());
   ASSERT_FALSE(motor);
   EXPECT_EQ(motor.error().code, ErrorCode::kDeviceLost);
   EXPECT_THAT(motor.error().message, HasSubstr("no turntable answers"));
+}
+
+/// What a board says of itself, or of a line, that does no harm.
+TEST(Motor, MarlinAsksForADamagedLineAndIsGivenTimeWhenItIsBusy) {
+  for (const BoardFault fault : {BoardFault::kDamagesOne, BoardFault::kBusy}) {
+    SimulatedTable table(BoardKind::kMarlin, fault);
+    auto motor = Motor::open(table.port(), quick(), RunContext());
+    ASSERT_TRUE(motor) << motor.error().text();
+    const auto done = motor->rotate(30.0 * kDeg, 80.0 * kDeg, RunContext());
+    ASSERT_TRUE(done) << done.error().text();
+    EXPECT_NEAR(table.angle_deg(), 30.0, 0.01);
+  }
+}
+
+TEST(Motor, ABoardIsFoundWithoutItsGreetingAndAsItsProtocolIsStated) {
+  for (const auto& [kind, protocol, name] :
+       {std::tuple(BoardKind::kFluidNc, MotorProtocol::kFluidNc, "[FluidNC"),
+        std::tuple(BoardKind::kGrblHal, MotorProtocol::kGrblHal, "GrblHAL"),
+        std::tuple(BoardKind::kMarlin, MotorProtocol::kMarlin, "Marlin")}) {
+    SimulatedTable table(kind, BoardFault::kNone);
+    MotorOptions options = quick();
+    options.protocol = protocol;
+    const auto motor = Motor::open(table.port(), options, RunContext());
+    ASSERT_TRUE(motor) << motor.error().text();
+    EXPECT_THAT(motor->board(), HasSubstr(name));
+  }
+}
+
+TEST(Motor, ABoardInTheNetworkIsNamedByHostAndPort) {
+  for (const auto& [port, code] : {std::pair("tcp:", ErrorCode::kInvalidOption),
+                                   {"tcp:127.0.0.1", ErrorCode::kInvalidOption},
+                                   {"tcp:127.0.0.1:1", ErrorCode::kIo}}) {
+    const auto motor = Motor::open(port, quick(), RunContext());
+    ASSERT_FALSE(motor);
+    EXPECT_EQ(motor.error().code, code) << motor.error().text();
+    EXPECT_EQ(motor.error().path, port);
+  }
 }
 
 TEST(Motor, APortThatDoesNotExistIsNotFound) {

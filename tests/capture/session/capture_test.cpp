@@ -216,7 +216,7 @@ TEST(Capture, ChecksEveryOption) {
 
 TEST(Capture, AMotorTurnsTheTableWhileFramesAreTakenAndStandsAfterwards) {
   const TempFolder temp;
-  testing::SimulatedTable table(false, testing::BoardFault::kNone);
+  testing::SimulatedTable table(testing::BoardKind::kText, testing::BoardFault::kNone);
   MotorOptions quick;
   quick.boot_s = 0.02;
   auto motor = Motor::open(table.port(), quick, {});
@@ -239,7 +239,7 @@ TEST(Capture, AMotorTurnsTheTableWhileFramesAreTakenAndStandsAfterwards) {
 
 TEST(Capture, AMotorThatFailsEndsTheRecordingWhichIsComplete) {
   const TempFolder temp;
-  testing::SimulatedTable table(false, testing::BoardFault::kStops);
+  testing::SimulatedTable table(testing::BoardKind::kText, testing::BoardFault::kStops);
   MotorOptions quick;
   quick.boot_s = 0.02;
   auto motor = Motor::open(table.port(), quick, {});
@@ -258,7 +258,7 @@ TEST(Capture, AMotorThatFailsEndsTheRecordingWhichIsComplete) {
 
 TEST(Capture, StopAndGoRecordsOneMeanFrameAtEachStop) {
   const TempFolder temp;
-  testing::SimulatedTable table(true, testing::BoardFault::kNone);
+  testing::SimulatedTable table(testing::BoardKind::kGrbl, testing::BoardFault::kNone);
   MotorOptions quick;
   quick.boot_s = 0.02;
   auto motor = Motor::open(table.port(), quick, {});

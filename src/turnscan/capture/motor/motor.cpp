@@ -41,32 +41,44 @@ class Advance {
   std::deque<std::pair<Clock::time_point, double>> samples_;
 };
 
-/// Reads the lines sent while the board starts; returns the first banner, or an empty string.
-Result<std::string> wait_for_banner(SerialPort& port, double boot_s, const RunContext& context) {
+struct Greeting {
+  const GcodeDialect* dialect = nullptr;
+  std::string line;
+};
+
+/// Reads the lines sent while the board starts; returns the first greeting of a board with G-code.
+Result<Greeting> wait_for_greeting(SerialPort& port, double boot_s, const RunContext& context) {
   const auto begin = Clock::now();
   while (seconds_since(begin) < boot_s) {
     TURNSCAN_TRY(context.check());
     TURNSCAN_ASSIGN(const auto line, port.read_line(std::min(0.1, boot_s)));
     if (!line) continue;
-    if (is_grbl_banner(*line)) return *line;
-    if (line->find("0 ready") == 0) return std::string();
+    if (const GcodeDialect* dialect = greeted_by(*line))
+      return Greeting{dialect, dialect->numbered ? std::string() : *line};
+    if (line->find("0 ready") == 0) break;
   }
-  return std::string();
+  return Greeting();
 }
 
+/// Tries the protocols one by one: first the one that does no harm to the others.
 Result<std::unique_ptr<MotorBoard>> open_board(SerialPort& port, const MotorOptions& options,
                                                const RunContext& context) {
-  TURNSCAN_ASSIGN(const std::string banner, wait_for_banner(port, options.boot_s, context));
-  if (options.protocol == MotorProtocol::kGrbl || !banner.empty())
-    return open_grbl_board(port, options, banner);
+  TURNSCAN_ASSIGN(Greeting greeting, wait_for_greeting(port, options.boot_s, context));
+  if (const GcodeDialect* stated = dialect_of(options.protocol); stated && !greeting.dialect)
+    greeting.dialect = stated;
+  if (greeting.dialect) return open_gcode_board(port, options, *greeting.dialect, greeting.line);
   auto text = open_text_board(port, options);
   if (text || options.protocol == MotorProtocol::kTurnscan) return text;
-  auto grbl = open_grbl_board(port, options, "");
-  if (grbl) return grbl;
+  std::string others;
+  for (const MotorProtocol protocol : {MotorProtocol::kGrbl, MotorProtocol::kMarlin}) {
+    const GcodeDialect& dialect = *dialect_of(protocol);
+    auto board = open_gcode_board(port, options, dialect, "");
+    if (board) return board;
+    others += fmt::format("; as {}: {}", dialect.name, board.error().message);
+  }
   return fail(ErrorCode::kDeviceLost,
-              "no turntable answers: {} (and as a G-code board: {}); check --motor-baud and the "
-              "board's power",
-              text.error().message, grbl.error().message);
+              "no turntable answers: {}{}; check --motor-baud and the board's power",
+              text.error().message, others);
 }
 
 Error at_port(Error error, const std::string& port) {
@@ -104,10 +116,10 @@ std::string_view name_of(MotorState state) {
 OptionTable describe(MotorOptions& o) {
   OptionTable table;
   table
-      .choice("motor-protocol", o.protocol, {"auto", "turnscan", "grbl"},
+      .choice("motor-protocol", o.protocol,
+              {"auto", "turnscan", "grbl", "grblhal", "fluidnc", "marlin"},
               "Protocol of the turntable's board: the text protocol of docs/reference/motor.md, or "
-              "G-code as "
-              "GRBL speaks it; auto: recognised from its greeting")
+              "a dialect of G-code; auto: recognised from its greeting")
       .number("motor-baud", o.baud, {300, 4000000}, "Baud rate of the serial port")
       .number("motor-timeout", o.timeout_s, Quantity::kTime, {0.02, 60.0},
               "Time in which the board must answer")

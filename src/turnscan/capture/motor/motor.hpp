@@ -1,6 +1,6 @@
 #pragma once
-// A turntable driven by this computer over a serial port. docs/reference/motor.md describes boards
-// and protocols.
+// A turntable driven by this computer over a serial port or a network. docs/reference/motor.md
+// describes boards and protocols.
 
 #include <limits>
 #include <memory>
@@ -13,7 +13,10 @@ namespace turnscan {
 enum class MotorProtocol {
   kAuto,      ///< detected from the board's greeting
   kTurnscan,  ///< the text protocol of docs/reference/motor.md
-  kGrbl       ///< G-code as understood by GRBL
+  kGrbl,      ///< G-code, in the dialect of GRBL or ...
+  kGrblHal,
+  kFluidNc,
+  kMarlin
 };
 
 struct MotorOptions {
@@ -47,7 +50,8 @@ struct MotorStatus {
 /// whether the board confirmed that. The destructor stops a turning table.
 class Motor {
  public:
-  /// Connects and waits until the board answers. Fails with kNotFound, kNoPermission, kDeviceBusy,
+  /// Connects and waits until the board answers. port: of a serial port the name, of a board in the
+  /// network "tcp:HOST:PORT". Fails with kNotFound, kNoPermission, kDeviceBusy,
   /// kIo, kDeviceLost if no known board answers, kInvalidOption, kCancelled.
   static Result<Motor> open(const std::string& port, const MotorOptions& options,
                             const RunContext& context);

@@ -1,6 +1,7 @@
 #pragma once
 // The two kinds of boards supported by Motor.
 
+#include <turnscan/capture/motor/gcode_dialect.hpp>
 #include <turnscan/capture/motor/motor.hpp>
 #include <turnscan/capture/motor/serial_port.hpp>
 
@@ -40,10 +41,10 @@ class MotorBoard {
 
 /// Opens a board with the text protocol. Fails with kDeviceLost if no board answers.
 Result<std::unique_ptr<MotorBoard>> open_text_board(SerialPort& port, const MotorOptions& options);
-/// Opens a GRBL board; banner: its first line, empty if it sent none.
-Result<std::unique_ptr<MotorBoard>> open_grbl_board(SerialPort& port, const MotorOptions& options,
-                                                    std::string banner);
-bool is_grbl_banner(std::string_view line);
+/// Opens a board with G-code; banner: its first line, empty if it sent none.
+Result<std::unique_ptr<MotorBoard>> open_gcode_board(SerialPort& port, const MotorOptions& options,
+                                                     const GcodeDialect& dialect,
+                                                     std::string banner);
 
 /// The angle, unless it exceeds a million turns, which means that the board has lost track. Fails
 /// with kIo.

@@ -4,9 +4,12 @@
 
 #include <fcntl.h>
 #include <libserialport.h>
+#include <netdb.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
+#include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -24,6 +27,8 @@ namespace {
 
 constexpr std::size_t kLongestLine = 240;
 constexpr int kWriteTimeout_ms = 500;
+constexpr int kConnectTimeout_ms = 3000;
+constexpr std::string_view kNetwork = "tcp:";
 
 /// "/dev/ttyUSB0 (CP2102 USB to UART Bridge)" for each port; "none" if there are none.
 std::string ports_there() {
@@ -61,6 +66,7 @@ tl::unexpected<Error> refusal(const std::string& name, int error) {
 struct SerialPort::State {
   std::string name;
   int descriptor = -1;
+  bool network = false;
   std::string half;
   std::deque<std::string> lines;
 
@@ -73,7 +79,8 @@ struct SerialPort::State {
 
   tl::unexpected<Error> lost() const {
     return fail_at(name, ErrorCode::kDeviceLost,
-                   "the turntable's serial port is gone; check cable and power of the table");
+                   "the turntable's {} is gone; check {} and power of the table",
+                   network ? "connection" : "serial port", network ? "network" : "cable");
   }
 
   void take(std::string_view bytes) {
@@ -126,7 +133,72 @@ bool make_raw(int descriptor, int baud) {
 
 }  // namespace
 
+namespace {
+
+/// Connects without waiting for longer than kConnectTimeout_ms; -1 and errno if that fails.
+int connected(const addrinfo& at) {
+  const int descriptor =
+      ::socket(at.ai_family, at.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, at.ai_protocol);
+  if (descriptor < 0) return -1;
+  int error = ::connect(descriptor, at.ai_addr, at.ai_addrlen) == 0 ? 0 : errno;
+  if (error == EINPROGRESS) {
+    pollfd wait{descriptor, POLLOUT, 0};
+    socklen_t size = sizeof error;
+    if (::poll(&wait, 1, kConnectTimeout_ms) <= 0)
+      error = ETIMEDOUT;
+    else if (::getsockopt(descriptor, SOL_SOCKET, SO_ERROR, &error, &size) != 0)
+      error = errno;
+  }
+  if (error == 0) {
+    const int on = 1;  // commands are short, and late ones are faults
+    (void)::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    return descriptor;
+  }
+  ::close(descriptor);
+  errno = error;
+  return -1;
+}
+
+/// A descriptor. Fails with kInvalidOption, kNotFound and kIo.
+Result<int> connect_to(const std::string& name) {
+  const std::string_view place = std::string_view(name).substr(kNetwork.size());
+  const auto colon = place.rfind(':');
+  if (colon == std::string_view::npos || colon == 0 || colon + 1 == place.size())
+    return fail_at(name, ErrorCode::kInvalidOption,
+                   "a board in the network is named tcp:HOST:PORT, such as tcp:192.168.0.20:23");
+  std::string host(place.substr(0, colon));
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  addrinfo* list = nullptr;
+  const int found =
+      ::getaddrinfo(host.c_str(), std::string(place.substr(colon + 1)).c_str(), &hints, &list);
+  if (found != 0)
+    return fail_at(name, ErrorCode::kNotFound, "there is no such board: {}; check its name",
+                   ::gai_strerror(found));
+  int descriptor = -1;
+  for (const addrinfo* at = list; at != nullptr && descriptor < 0; at = at->ai_next)
+    descriptor = connected(*at);
+  const int error = errno;
+  ::freeaddrinfo(list);
+  if (descriptor < 0)
+    return fail_at(name, ErrorCode::kIo,
+                   "cannot connect to the board: {}; check its address, and that no other program "
+                   "uses it",
+                   std::generic_category().message(error));
+  return descriptor;
+}
+
+}  // namespace
+
 Result<SerialPort> SerialPort::open(const std::string& name, int baud) {
+  if (name.starts_with(kNetwork)) {
+    auto state = std::make_unique<State>();
+    state->name = name;
+    state->network = true;
+    TURNSCAN_ASSIGN(state->descriptor, connect_to(name));
+    return SerialPort(std::move(state));
+  }
   auto state = std::make_unique<State>();
   state->name = name;
   state->descriptor = ::open(name.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
@@ -146,7 +218,9 @@ Result<> SerialPort::write(std::string_view bytes) {
     pollfd wait{state_->descriptor, POLLOUT, 0};
     if (::poll(&wait, 1, kWriteTimeout_ms) <= 0 || (wait.revents & POLLOUT) == 0)
       return state_->lost();
-    const auto done = ::write(state_->descriptor, bytes.data(), bytes.size());
+    const auto done = state_->network
+                          ? ::send(state_->descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL)
+                          : ::write(state_->descriptor, bytes.data(), bytes.size());
     if (done < 0 && errno != EAGAIN && errno != EINTR) return state_->lost();
     if (done > 0) bytes.remove_prefix(static_cast<std::size_t>(done));
   }

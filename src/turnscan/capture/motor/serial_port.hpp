@@ -1,5 +1,5 @@
 #pragma once
-// Line-based communication over a serial port.
+// Line-based communication over a serial port, or over TCP with a board that has a network.
 
 #include <chrono>
 #include <memory>
@@ -14,8 +14,9 @@ using Clock = std::chrono::steady_clock;
 
 class SerialPort {
  public:
-  /// 8 data bits, no parity, 1 stop bit, no flow control. Pending input is discarded. Fails with
-  /// kNotFound, kNoPermission, kDeviceBusy, kIo.
+  /// name: of a serial port, which gets 8 data bits, no parity, 1 stop bit, no flow control, and
+  /// whose pending input is discarded; or tcp:HOST:PORT. Fails with kNotFound, kNoPermission,
+  /// kDeviceBusy, kInvalidOption, kIo.
   static Result<SerialPort> open(const std::string& name, int baud);
   SerialPort(SerialPort&&) noexcept;
   SerialPort& operator=(SerialPort&&) noexcept;

@@ -258,9 +258,11 @@ Result<Recorder> Recorder::create(const fs::path& folder, const SequenceHeader& 
 }
 
 Result<Recorder> Recorder::extend(const fs::path& folder, const RecorderOptions& options,
-                                  double expected_bytes, std::optional<std::uint32_t> resumed_at) {
+                                  double expected_bytes, std::optional<std::uint32_t> resumed_at,
+                                  bool was_finished) {
   TURNSCAN_TRY(check_room(folder, options, expected_bytes));
-  return of(RecordingWriter::extend(folder, options.color, resumed_at), folder, options);
+  return of(RecordingWriter::extend(folder, options.color, resumed_at, was_finished), folder,
+            options);
 }
 
 Result<Recorder> Recorder::of(Result<RecordingWriter> writer, const fs::path& folder,

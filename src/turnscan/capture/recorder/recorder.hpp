@@ -46,7 +46,8 @@ class Recorder {
   /// well.
   static Result<Recorder> extend(const std::filesystem::path& folder,
                                  const RecorderOptions& options, double expected_bytes = 0.0,
-                                 std::optional<std::uint32_t> resumed_at = {});
+                                 std::optional<std::uint32_t> resumed_at = {},
+                                 bool was_finished = true);
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
   /// Leaves the recording as it is, marked incomplete unless finish() was called. Queued frames are

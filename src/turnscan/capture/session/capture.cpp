@@ -13,6 +13,7 @@
 #include <turnscan/core/units.hpp>
 #include <turnscan/core/utc_time.hpp>
 #include <turnscan/recording/repair.hpp>
+#include <turnscan/recording/unfinished.hpp>
 #include <turnscan/turntable/table_frame.hpp>
 
 namespace turnscan {
@@ -191,6 +192,7 @@ class Session {
     TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder_));
     if (const std::string reason = reason_against(recording); !reason.empty())
       return fail_at(folder_.string(), ErrorCode::kInvalidOption, "{}", reason);
+    was_finished_ = !is_unfinished_recording(folder_);
     TURNSCAN_TRY(repair_recording(folder_));
     header_ = recording.header();
     settings_ = recording.capture_settings();
@@ -247,9 +249,10 @@ class Session {
     // A replayed recording began when it was recorded.
     if (source_.info().driver != "replay")
       settings_.emplace(prefix_of_pass() + kStartedAt, utc_text(utc_now_s()));
-    auto recorder = options_.add_pass || options_.resume
-                        ? Recorder::extend(folder_, options_.recorder, bytes, resumed_at_)
-                        : Recorder::create(folder_, header_, settings_, options_.recorder, bytes);
+    auto recorder =
+        options_.add_pass || options_.resume
+            ? Recorder::extend(folder_, options_.recorder, bytes, resumed_at_, was_finished_)
+            : Recorder::create(folder_, header_, settings_, options_.recorder, bytes);
     refused_at_start_ = !recorder;
     if (!recorder) return tl::unexpected<Error>(std::move(recorder).error());
     recorder_.emplace(std::move(*recorder));
@@ -504,6 +507,7 @@ class Session {
   // Of a recording that is resumed: its frames so far, and the first one of a new stretch.
   std::vector<FrameInfo> recorded_;
   std::optional<std::uint32_t> resumed_at_;
+  bool was_finished_ = true;  // before it was resumed
   std::uint32_t stretch_ = 0;
   std::optional<double> last_recorded_s_, time_offset_s_;
   std::optional<double> first_time_, first_angle_;

@@ -130,10 +130,11 @@ double preference(const PreparedPass& a, const PreparedPass& b, const Pose& one,
 }
 
 double motion_distance(const PreparedPass& b, const Pose& one, const Pose& other) {
-  const Eigen::Isometry3f between = (one.inverse() * other).cast<float>();
-  double sum = 0.0;
-  for (const Vec3f& p : b.coarse.samples.points) sum += double((between * p - p).squaredNorm());
-  return std::sqrt(sum / double(std::max<std::size_t>(1, b.coarse.samples.size())));
+  const Pose between = one.inverse() * other;
+  const Eigen::Matrix3d turn = between.linear() - Eigen::Matrix3d::Identity();
+  const Vec3d shift = turn * b.middle + between.translation();
+  return std::sqrt(std::max(0.0, (turn * b.scatter * turn.transpose()).trace()) +
+                   shift.squaredNorm());
 }
 
 }  // namespace turnscan::passes

@@ -92,17 +92,30 @@ class MatchedColors {
 ShadingFit::ShadingFit(std::span<const Pair> pairs, float scale) {
   coefficients_.setZero();
   for (int round = 0; round < kFitRounds; ++round) {
-    Eigen::Matrix<double, 5, 5> matrix = Eigen::Matrix<double, 5, 5>::Zero();
-    Eigen::Matrix<double, 5, 3> vector = Eigen::Matrix<double, 5, 3>::Zero();
+    // Row by row: of the matrix, then the right sides.
+    std::array<Eigen::Array<double, 8, 1>, 5> rows;
+    rows.fill(Eigen::Array<double, 8, 1>::Zero());
     for (const Pair& pair : pairs) {
       const Terms t = terms(pair.up_a, pair.up_b);
-      const Vec3f left = pair.difference - coefficients_.transpose() * t;
-      // The first round uses all.
-      const float u2 = round == 0 ? 0.0f : left.squaredNorm() / (4.0f * scale * scale);
+      float u2 = 0.0f;  // the first round uses all
+      if (round > 0) {
+        Vec3f left = pair.difference;
+        for (int k = 0; k < 5; ++k) left -= t[k] * coefficients_.row(k).transpose();
+        u2 = left.squaredNorm() / (4.0f * scale * scale);
+      }
       if (!(u2 < 1.0f)) continue;
       const double w = double(pair.weight) * double((1.0f - u2) * (1.0f - u2));
-      matrix.noalias() += w * (t * t.transpose()).cast<double>();
-      vector.noalias() += w * (t * pair.difference.transpose()).cast<double>();
+      Eigen::Array<double, 8, 1> row;
+      for (int k = 0; k < 5; ++k) row[k] = double(t[k]);
+      for (int c = 0; c < 3; ++c) row[5 + c] = double(pair.difference[c]);
+      for (std::size_t k = 0; k < 5; ++k) rows[k] += (w * row[Eigen::Index(k)]) * row;
+    }
+    Eigen::Matrix<double, 5, 5> matrix;
+    Eigen::Matrix<double, 5, 3> vector;
+    for (int k = 0; k < 5; ++k) {
+      const Eigen::Array<double, 8, 1>& row = rows[std::size_t(k)];
+      matrix.row(k) = row.head<5>().matrix().transpose();
+      vector.row(k) = row.tail<3>().matrix().transpose();
     }
     const double weight = matrix(0, 0);
     if (!(weight > 0.0)) return;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <turnscan/reconstruction/passes/join_passes.hpp>
 #include <turnscan/reconstruction/passes/object_groups.hpp>
@@ -26,12 +27,25 @@ class ObjectJoin {
   ObjectJoin(const JoinOptions& options, const RunContext& context)
       : options_(options), context_(context) {}
 
-  Result<std::vector<std::vector<ObjectPart>>> run(
+  Result<std::vector<std::vector<ObjectPart>>> run(std::span<const std::vector<PassSurface>> passes,
+                                                   const AddColors& add_colors) {
+    TURNSCAN_ASSIGN(auto out, join(passes));
+    const bool open =
+        std::any_of(out.begin(), out.end(), [](const auto& parts) { return parts[0].motion.open; });
+    if (!open || !add_colors) return out;
+    TURNSCAN_ASSIGN(const bool colored, add_colors());
+    return colored ? join(passes) : std::move(out);
+  }
+
+ private:
+  Result<std::vector<std::vector<ObjectPart>>> join(
       std::span<const std::vector<PassSurface>> passes) {
     prepare(passes);
     context_.begin_phase("join passes", pairs_of_objects() + 1);
-    for (std::size_t a = 0; a < passes.size(); ++a)
-      for (std::size_t b = a + 1; b < passes.size(); ++b) TURNSCAN_TRY(judge_passes(a, b));
+    // Neighbours first: they overlap most, and imply where the others lie.
+    for (std::size_t apart = 1; apart < passes.size(); ++apart)
+      for (std::size_t a = 0; a + apart < passes.size(); ++a)
+        TURNSCAN_TRY(judge_passes(a, a + apart));
     TURNSCAN_ASSIGN(const std::vector<ObjectGroup> groups,
                     group_objects(objects_, verdicts_, options_, context_));
     std::vector<std::vector<ObjectPart>> out;
@@ -46,12 +60,17 @@ class ObjectJoin {
     return out;
   }
 
- private:
   void prepare(std::span<const std::vector<PassSurface>> passes) {
+    prepared_.clear();
+    objects_.clear();
+    first_of_pass_.clear();
+    verdicts_.clear();
+    chains_.clear();
     for (std::size_t pass = 0; pass < passes.size(); ++pass) {
       first_of_pass_.push_back(objects_.size());
       for (std::size_t object = 0; object < passes[pass].size(); ++object) {
         prepared_.push_back(std::make_unique<PreparedPass>(passes[pass][object]));
+        chains_.push_back({objects_.size(), Pose::Identity()});
         objects_.push_back({pass, object, prepared_.back().get()});
       }
     }
@@ -71,19 +90,55 @@ class ObjectJoin {
       of_a.push_back(objects_[i].surface);
     for (std::size_t j = first_of_pass_[b]; j < first_of_pass_[b + 1]; ++j)
       of_b.push_back(objects_[j].surface);
+    const bool single = of_a.size() == 1 && of_b.size() == 1;
+    if (single && is_implied(first_of_pass_[a], first_of_pass_[b])) {
+      context_.advance();
+      return {};
+    }
     VerdictTable table(of_a.size());
     for (std::size_t i = 0; i < of_a.size(); ++i) {
-      for (const PreparedPass* other : of_b) {
-        TURNSCAN_ASSIGN(PairVerdict verdict, judge_pair(*of_a[i], *other, options_, context_));
+      for (std::size_t j = 0; j < of_b.size(); ++j) {
+        TURNSCAN_ASSIGN(PairVerdict verdict, judge(first_of_pass_[a] + i, first_of_pass_[b] + j));
         table[i].push_back(std::move(verdict));
         context_.advance();
       }
     }
-    if (of_a.size() > 1 || of_b.size() > 1) match_objects(of_a, of_b, table);
+    if (!single) match_objects(of_a, of_b, table);
     for (std::size_t i = 0; i < of_a.size(); ++i)
       for (std::size_t j = 0; j < of_b.size(); ++j)
         verdicts_.push_back({first_of_pass_[a] + i, first_of_pass_[b] + j, std::move(table[i][j])});
+    if (single && verdicts_.back().verdict.certain) chain(verdicts_.back());
     return {};
+  }
+
+  /// What the shapes say is asked only once.
+  Result<PairVerdict> judge(std::size_t a, std::size_t b) {
+    const PreparedPass &of_a = *objects_[a].surface, &of_b = *objects_[b].surface;
+    auto known = by_shape_.find({a, b});
+    if (known == by_shape_.end()) {
+      TURNSCAN_ASSIGN(PairVerdict verdict, judge_shapes(of_a, of_b, options_, context_));
+      known = by_shape_.emplace(std::pair(a, b), std::move(verdict)).first;
+    }
+    return judge_colors(known->second, of_a, of_b, options_, context_);
+  }
+
+  void chain(const JudgedPair& certain) {
+    const Chain to = chains_[certain.a], from = chains_[certain.b];
+    if (to.first == from.first) return;
+    const Pose T = to.T_first_object * certain.verdict.best.T_a_b * from.T_first_object.inverse();
+    for (Chain& chain : chains_)
+      if (chain.first == from.first) chain = {to.first, T * chain.T_first_object};
+  }
+
+  /// Whether certain pairs already place one relative to the other, their surfaces agree there, and
+  /// neither contradicts it: judging them costs as much as any pair, and would say the same.
+  bool is_implied(std::size_t a, std::size_t b) const {
+    if (chains_[a].first != chains_[b].first) return false;
+    const PreparedPass &of_a = *objects_[a].surface, &of_b = *objects_[b].surface;
+    const Agreement there =
+        compare(of_a, of_b, chains_[a].T_first_object.inverse() * chains_[b].T_first_object,
+                agreement_tolerance_m(of_a, of_b), Density::kMedium);
+    return misfit(of_a, of_b, there, options_).empty();
   }
 
   Result<std::vector<ObjectPart>> parts_of(const ObjectGroup& group) const {
@@ -189,8 +244,16 @@ class ObjectJoin {
     }
   }
 
+  /// A chain of certain pairs that leads to an object.
+  struct Chain {
+    std::size_t first;  ///< object; the same for all that are connected
+    Pose T_first_object;
+  };
+
   const JoinOptions& options_;
   const RunContext& context_;
+  std::map<std::pair<std::size_t, std::size_t>, PairVerdict> by_shape_;
+  std::vector<Chain> chains_;  // by object
   std::vector<std::unique_ptr<PreparedPass>> prepared_;
   std::vector<TableObject> objects_;        // pass by pass
   std::vector<std::size_t> first_of_pass_;  // position in objects_; one more at the end
@@ -201,9 +264,9 @@ class ObjectJoin {
 
 Result<std::vector<std::vector<ObjectPart>>> join_objects(
     std::span<const std::vector<PassSurface>> passes, const JoinOptions& options,
-    const RunContext& context) {
+    const RunContext& context, const AddColors& add_colors) {
   TURNSCAN_TRY(check_passes(passes));
-  return ObjectJoin(options, context).run(passes);
+  return ObjectJoin(options, context).run(passes, add_colors);
 }
 
 Result<std::vector<PassMotion>> join_passes(std::span<const PassSurface> passes,

@@ -2,6 +2,7 @@
 // Registers the passes of one object by their surfaces, or gives the reason why these do not
 // determine the motions.
 
+#include <functional>
 #include <span>
 #include <string>
 #include <turnscan/core/result.hpp>
@@ -58,12 +59,16 @@ struct ObjectPart {
   PassMotion motion;
 };
 
+/// Adds colours to surfaces that are being joined. Returns whether at least two passes have any.
+using AddColors = std::function<Result<bool>()>;
+
 /// The same for tables with several objects, whose positions and poses differ arbitrarily between
 /// passes: all parts of each object, by pass, at most one per pass; objects in the order of their
-/// first parts. An object found in no other pass is a single part, with a reason. Fails as
-/// join_passes() does, with the objects of all passes counted.
+/// first parts. An object found in no other pass is a single part, with a reason. add_colors is
+/// called if the shapes leave a motion open. Fails as join_passes() does, with the objects of all
+/// passes counted, and as add_colors.
 Result<std::vector<std::vector<ObjectPart>>> join_objects(
     std::span<const std::vector<PassSurface>> passes, const JoinOptions& options,
-    const RunContext& context);
+    const RunContext& context, const AddColors& add_colors = {});
 
 }  // namespace turnscan::passes

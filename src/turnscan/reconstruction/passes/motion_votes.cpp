@@ -10,7 +10,11 @@ namespace turnscan::passes {
 namespace {
 
 constexpr double kRotationSpacing = 14.0 * std::numbers::pi / 180.0;
-constexpr int kSide = 20;         // cells of the translations along each axis
+constexpr int kFineSide = 20;  // cells of the translations along each axis
+/// A third of the points, in cells of twice the size, choose the rotations that are worth the votes
+/// of half of them: one in kChosen. The others hardly ever end among the motions that are kept.
+constexpr int kRoughSide = kFineSide / 2;
+constexpr std::size_t kRoughStride = 3, kFineStride = 2, kChosen = 8;
 constexpr int kFaceBins = 8;      // of normals, along an edge of a cube
 constexpr float kVoteCos = 0.9f;  // normals closer than this may belong to the same point
 
@@ -78,6 +82,7 @@ float likeness(const Vec3f& one, const Vec3f& other, float spread) {
 }
 
 /// The votes for translations under one rotation.
+template <int kSide>
 class VoteBox {
  public:
   VoteBox() : votes_(std::size_t(kSide) * kSide * kSide), blurred_(votes_.size()) {}
@@ -127,6 +132,87 @@ class VoteBox {
   std::vector<float> votes_, blurred_;
 };
 
+/// The votes of b's points, of which each stride-th is used, for translations to a.
+template <int kSide>
+class Votes {
+ public:
+  Votes(const Samples& a, const Samples& b, double extent_m, std::size_t stride, float color_spread)
+      : stride_(stride),
+        color_spread_(a.colors.empty() || b.colors.empty() ? 0.0f : color_spread),
+        per_cell_(float(kSide / extent_m)),
+        center_a_(bounds(a.points).center().cast<float>()),
+        center_b_(bounds(b.points).center().cast<float>()),
+        b_(b),
+        index_(a, center_a_, per_cell_) {}
+
+  /// The two best translations for each of the rotations.
+  Result<std::vector<std::array<Peak, 2>>> peaks(std::span<const Eigen::Matrix3f> rotations,
+                                                 const RunContext& context) const {
+    std::vector<std::array<Peak, 2>> out(rotations.size());
+    constexpr std::size_t kChunk = 32;
+    const std::size_t chunks = (rotations.size() + kChunk - 1) / kChunk;
+    TURNSCAN_TRY(parallel_for(chunks, 1, context, [&](std::size_t chunk) {
+      VoteBox<kSide> box;
+      for (std::size_t r = chunk * kChunk; r < std::min(rotations.size(), (chunk + 1) * kChunk);
+           ++r) {
+        box.clear();
+        vote(rotations[r], box);
+        out[r] = box.peaks();
+      }
+    }));
+    return out;
+  }
+
+  VotedMotion motion(const Eigen::Matrix3f& rotation, const Peak& peak) const {
+    VotedMotion out;
+    out.votes = peak.votes;
+    const Vec3f t = center_a_ + peak.cell / per_cell_ - rotation * center_b_;
+    out.T_a_b.linear() = rotation.cast<double>();
+    out.T_a_b.translation() = t.cast<double>();
+    return out;
+  }
+
+ private:
+  void vote(const Eigen::Matrix3f& rotation, VoteBox<kSide>& box) const {
+    for (std::size_t i = 0; i < b_.size(); i += stride_) {
+      const Places& partners = index_.at(rotation * b_.normals[i]);
+      const Cell q = cell_of(rotation * ((b_.points[i] - center_b_) * per_cell_));
+      // All points of a plane are partners of each other.
+      const float weight = 1.0f / std::sqrt(1.0f + float(partners.cells.size()));
+      if (color_spread_ > 0.0f) {
+        for (std::size_t k = 0; k < partners.cells.size(); ++k)
+          box.add(partners.cells[k] - q,
+                  weight * likeness(partners.colors[k], b_.colors[i], color_spread_));
+      } else {
+        for (const Cell& p : partners.cells) box.add(p - q, weight);
+      }
+    }
+  }
+
+  std::size_t stride_;
+  float color_spread_, per_cell_;
+  Vec3f center_a_, center_b_;
+  const Samples& b_;
+  NormalIndex index_;
+};
+
+/// The rotations with the most votes of some of the points.
+Result<std::vector<Eigen::Matrix3f>> chosen_rotations(const Samples& a, const Samples& b,
+                                                      double extent_m, float color_spread,
+                                                      const RunContext& context) {
+  static const std::vector<Eigen::Matrix3f> all = rotation_grid(kRotationSpacing);
+  const Votes<kRoughSide> rough(a, b, extent_m, kRoughStride, color_spread);
+  TURNSCAN_ASSIGN(const auto peaks, rough.peaks(all, context));
+  std::vector<std::size_t> order(all.size());
+  for (std::size_t r = 0; r < order.size(); ++r) order[r] = r;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t x, std::size_t y) {
+    return peaks[x][0].votes > peaks[y][0].votes;
+  });
+  std::vector<Eigen::Matrix3f> out;
+  for (std::size_t k = 0; k < order.size() / kChosen; ++k) out.push_back(all[order[k]]);
+  return out;
+}
+
 }  // namespace
 
 std::vector<Eigen::Matrix3f> rotation_grid(double spacing_rad) {
@@ -149,45 +235,12 @@ std::vector<Eigen::Matrix3f> rotation_grid(double spacing_rad) {
 Result<std::vector<VotedMotion>> vote_motions(const Samples& a, const Samples& b, double extent_m,
                                               std::size_t count, float color_spread,
                                               const RunContext& context) {
-  const std::vector<Eigen::Matrix3f> rotations = rotation_grid(kRotationSpacing);
-  const Vec3f center_a = bounds(a.points).center().cast<float>();
-  const Vec3f center_b = bounds(b.points).center().cast<float>();
-  const auto per_cell = float(kSide / extent_m);
-  const NormalIndex index(a, center_a, per_cell);
-  std::vector<std::array<Peak, 2>> peaks(rotations.size());
-  constexpr std::size_t kChunk = 32;
-  const std::size_t chunks = (rotations.size() + kChunk - 1) / kChunk;
-  TURNSCAN_TRY(parallel_for(chunks, 1, context, [&](std::size_t chunk) {
-    VoteBox box;
-    for (std::size_t r = chunk * kChunk; r < std::min(rotations.size(), (chunk + 1) * kChunk);
-         ++r) {
-      box.clear();
-      for (std::size_t i = 0; i < b.size(); ++i) {
-        const Places& partners = index.at(rotations[r] * b.normals[i]);
-        const Cell q = cell_of(rotations[r] * ((b.points[i] - center_b) * per_cell));
-        // All points of a plane are partners of each other.
-        const float weight = 1.0f / std::sqrt(1.0f + float(partners.cells.size()));
-        if (color_spread > 0.0f && !a.colors.empty()) {
-          for (std::size_t k = 0; k < partners.cells.size(); ++k)
-            box.add(partners.cells[k] - q,
-                    weight * likeness(partners.colors[k], b.colors[i], color_spread));
-        } else {
-          for (const Cell& p : partners.cells) box.add(p - q, weight);
-        }
-      }
-      peaks[r] = box.peaks();
-    }
-  }));
+  TURNSCAN_ASSIGN(const auto rotations, chosen_rotations(a, b, extent_m, color_spread, context));
+  const Votes<kFineSide> votes(a, b, extent_m, kFineStride, color_spread);
+  TURNSCAN_ASSIGN(const auto peaks, votes.peaks(rotations, context));
   std::vector<VotedMotion> out;
-  for (std::size_t r = 0; r < peaks.size(); ++r) {
-    for (const Peak& peak : peaks[r]) {
-      VotedMotion& motion = out.emplace_back();
-      motion.votes = peak.votes;
-      const Vec3f t = center_a + peak.cell / per_cell - rotations[r] * center_b;
-      motion.T_a_b.linear() = rotations[r].cast<double>();
-      motion.T_a_b.translation() = t.cast<double>();
-    }
-  }
+  for (std::size_t r = 0; r < peaks.size(); ++r)
+    for (const Peak& peak : peaks[r]) out.push_back(votes.motion(rotations[r], peak));
   std::stable_sort(out.begin(), out.end(),
                    [](const VotedMotion& x, const VotedMotion& y) { return x.votes > y.votes; });
   if (out.size() > count) out.resize(count);

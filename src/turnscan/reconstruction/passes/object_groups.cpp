@@ -128,7 +128,7 @@ class Grouping {
         if (i == j || count == 0 || (count > 1 && j < i) || refused(i, j)) continue;
         const MergedPass part = united(groups_[j]);
         TURNSCAN_ASSIGN(PairVerdict verdict,
-                        judge_pair(whole.prepared(), part.prepared(), options_, context_));
+                        judge_shapes(whole.prepared(), part.prepared(), options_, context_));
         if (!verdict.certain || contradicts(groups_[i], groups_[j], verdict.best.T_a_b)) {
           refuse(i, j);
         } else if (!best || verdict.best.agreement.score_m2 > best->best.agreement.score_m2) {

@@ -9,15 +9,32 @@ namespace turnscan::passes {
 
 namespace {
 
-constexpr std::size_t kVoted = 800, kRefined = 40, kKept = 12;
+constexpr std::size_t kVoted = 800;
 /// If the shape leaves the motion undetermined, many motions fit equally, and colours choose among
 /// them.
 constexpr std::size_t kColored = 2;
+
 /// Reach in each step, relative to the object's extent. A rotation of the grid is wrong by up to 10
 /// degrees.
-constexpr std::array<double, 12> kCoarseReach{0.11, 0.10, 0.09, 0.08, 0.07, 0.06,
-                                              0.05, 0.05, 0.04, 0.04, 0.03, 0.03};
-constexpr std::array<double, 8> kMediumReach{0.03, 0.03, 0.025, 0.02, 0.02, 0.015, 0.015, 0.015};
+constexpr std::array<double, 5> kFirst{0.11, 0.10, 0.09, 0.08, 0.07};
+constexpr std::array<double, 4> kNearer{0.06, 0.05, 0.05, 0.04};
+constexpr std::array<double, 3> kEnd{0.04, 0.03, 0.03};
+constexpr std::array<double, 3> kMediumFirst{0.03, 0.03, 0.025};
+constexpr std::array<double, 5> kMediumEnd{0.02, 0.02, 0.015, 0.015, 0.015};
+
+/// Steps after which only the best and clearly different motions go on: most of those voted for end
+/// together or nowhere, which some of the points show after a few steps.
+struct Round {
+  Density density;
+  std::span<const double> reaches;
+  std::size_t stride;  ///< of the points that are paired
+  std::size_t keep;
+};
+constexpr std::array<Round, 5> kRounds{{{Density::kCoarse, kFirst, 2, 200},
+                                        {Density::kCoarse, kNearer, 1, 80},
+                                        {Density::kCoarse, kEnd, 1, 40},
+                                        {Density::kMedium, kMediumFirst, 2, 16},
+                                        {Density::kMedium, kMediumEnd, 1, 12}}};
 constexpr double kCoarseTolerance = 0.015;
 
 /// Refines and ranks the motions, and keeps the best clearly different ones.
@@ -27,25 +44,26 @@ struct Refinement {
   const ColorScale& colors;
   const RunContext& context;
 
-  Result<> run(std::vector<CandidateMotion>& motions, Density density,
-               std::span<const double> shares, double tolerance_m, std::size_t keep) const {
-    const bool coarse = density == Density::kCoarse;
+  Result<> run(std::vector<CandidateMotion>& motions, const Round& round) const {
+    const double extent = std::max(a.extent_m, b.extent_m);
+    const bool coarse = round.density == Density::kCoarse;
+    const double tolerance_m = coarse ? kCoarseTolerance * extent : agreement_tolerance_m(a, b);
     const SurfaceLevel& of_a = coarse ? a.coarse : a.medium;
     const SurfaceLevel& of_b = coarse ? b.coarse : b.medium;
     std::vector<double> reaches;
-    for (const double share : shares) reaches.push_back(share * std::max(a.extent_m, b.extent_m));
+    for (const double share : round.reaches) reaches.push_back(share * extent);
     TURNSCAN_TRY(parallel_for(motions.size(), 1, context, [&](std::size_t i) {
       CandidateMotion& motion = motions[i];
-      motion.T_a_b = align_levels(of_a, of_b, motion.T_a_b, reaches, colors.spread);
-      motion.agreement = compare(a, b, motion.T_a_b, tolerance_m, density);
+      motion.T_a_b = align_levels(of_a, of_b, motion.T_a_b, reaches, colors.spread, round.stride);
+      motion.agreement = compare(a, b, motion.T_a_b, tolerance_m, round.density);
       if (colors.any())
-        motion.colors = compare_colors(a, b, motion.T_a_b, colors, tolerance_m, density);
+        motion.colors = compare_colors(a, b, motion.T_a_b, colors, tolerance_m, round.density);
     }));
     std::stable_sort(motions.begin(), motions.end(),
                      [](const CandidateMotion& x, const CandidateMotion& y) {
                        return x.evidence_m2() > y.evidence_m2();
                      });
-    keep_different(motions, keep);
+    keep_different(motions, (colors.any() ? kColored : 1) * round.keep);
     return {};
   }
 
@@ -82,11 +100,7 @@ Result<std::vector<CandidateMotion>> search_motions(const PreparedPass& a, const
   std::vector<CandidateMotion> motions(voted.size());
   for (std::size_t i = 0; i < voted.size(); ++i) motions[i].T_a_b = voted[i].T_a_b;
   const Refinement refinement{a, b, colors, context};
-  const std::size_t more = colors.any() ? kColored : 1;
-  TURNSCAN_TRY(refinement.run(motions, Density::kCoarse, kCoarseReach, kCoarseTolerance * extent,
-                              more * kRefined));
-  TURNSCAN_TRY(refinement.run(motions, Density::kMedium, kMediumReach, agreement_tolerance_m(a, b),
-                              more * kKept));
+  for (const Round& round : kRounds) TURNSCAN_TRY(refinement.run(motions, round));
   return motions;
 }
 

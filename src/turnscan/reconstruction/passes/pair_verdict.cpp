@@ -190,9 +190,13 @@ std::string misfit(const PreparedPass& a, const PreparedPass& b, const Agreement
   return {};
 }
 
-Result<PairVerdict> judge_pair(const PreparedPass& a, const PreparedPass& b,
-                               const JoinOptions& options, const RunContext& context) {
-  TURNSCAN_ASSIGN(PairVerdict by_shape, Judge(a, b, {}, options, context).run());
+Result<PairVerdict> judge_shapes(const PreparedPass& a, const PreparedPass& b,
+                                 const JoinOptions& options, const RunContext& context) {
+  return Judge(a, b, {}, options, context).run();
+}
+
+Result<PairVerdict> judge_colors(PairVerdict by_shape, const PreparedPass& a, const PreparedPass& b,
+                                 const JoinOptions& options, const RunContext& context) {
   if (by_shape.certain || !by_shape.fits) return by_shape;
   const ColorScale colors = color_scale(a, b);
   if (!colors.any()) return by_shape;

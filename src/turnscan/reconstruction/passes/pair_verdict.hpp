@@ -20,9 +20,13 @@ struct PairVerdict {
 std::string misfit(const PreparedPass& a, const PreparedPass& b, const Agreement& agreement,
                    const JoinOptions& options);
 
-/// Decides by shapes; if these fit but leave the motion undetermined, by colours, if both have any.
-/// Fails with kCancelled.
-Result<PairVerdict> judge_pair(const PreparedPass& a, const PreparedPass& b,
-                               const JoinOptions& options, const RunContext& context);
+/// Decides by shapes. Fails with kCancelled.
+Result<PairVerdict> judge_shapes(const PreparedPass& a, const PreparedPass& b,
+                                 const JoinOptions& options, const RunContext& context);
+
+/// If the shapes fit but leave the motion undetermined, decides by colours, if both have any. Fails
+/// with kCancelled.
+Result<PairVerdict> judge_colors(PairVerdict by_shape, const PreparedPass& a, const PreparedPass& b,
+                                 const JoinOptions& options, const RunContext& context);
 
 }  // namespace turnscan::passes

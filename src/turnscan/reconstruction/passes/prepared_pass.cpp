@@ -16,6 +16,21 @@ constexpr float kSameSide = 0.5f;
 
 double extent(const PassSurface& surface) { return bounds(surface.points).size().norm(); }
 
+Vec3d mean(const std::vector<Vec3f>& points) {
+  Vec3d sum = Vec3d::Zero();
+  for (const Vec3f& p : points) sum += p.cast<double>();
+  return sum / double(std::max<std::size_t>(1, points.size()));
+}
+
+Eigen::Matrix3d mean_squares(const std::vector<Vec3f>& points, const Vec3d& middle) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Vec3f& p : points) {
+    const Vec3d d = p.cast<double>() - middle;
+    sum += d * d.transpose();
+  }
+  return sum / double(std::max<std::size_t>(1, points.size()));
+}
+
 }  // namespace
 
 std::vector<Eigen::Matrix3f> color_gradients(std::span<const Vec3f> points,
@@ -63,6 +78,8 @@ PreparedPass::PreparedPass(const PassSurface& pass)
       votes(pass, kVoting, 1, 0.0),
       coarse(pass, kCoarse, 48, 0.12),
       medium(pass, kMedium, 72, 0.03),
+      middle(mean(coarse.samples.points)),
+      scatter(mean_squares(coarse.samples.points, middle)),
       free(pass, kFreeSigmas * pass.noise_m + kFreeLeast),
       tree(pass.points),
       color_gradients(passes::color_gradients(pass.points, pass.normals, pass.colors)),

@@ -33,6 +33,8 @@ struct PreparedPass {
   double extent_m;  ///< diagonal of its bounding box
   double area_m2;
   SurfaceLevel votes, coarse, medium;
+  Vec3d middle;             ///< of the coarse points
+  Eigen::Matrix3d scatter;  ///< their mean squares about it
   FreeSpace free;
   KdTree tree;                                   ///< of all points
   std::vector<Eigen::Matrix3f> color_gradients;  ///< of all points, as SurfaceLevel's

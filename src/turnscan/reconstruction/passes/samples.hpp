@@ -26,12 +26,15 @@ class NearestGrid {
 
   /// About `side` cells along the longest side; finds samples within reach_m.
   NearestGrid(const Samples& samples, int side, double reach_m);
-  std::uint32_t operator()(const Vec3f& p) const {
-    const Vec3f at = (p - origin_) * per_cell_;
-    if (!(at.minCoeff() >= 0.0f)) return kNone;
-    const Eigen::Vector3i c = at.cast<int>();
-    if ((c.array() >= size_.array()).any()) return kNone;
-    return nearest_[std::size_t(c.x() + size_.x() * (c.y() + size_.y() * c.z()))];
+  std::uint32_t operator()(const Vec3f& p) const { return (*this)(p.x(), p.y(), p.z()); }
+  std::uint32_t operator()(float px, float py, float pz) const {
+    const float x = (px - origin_.x()) * per_cell_, y = (py - origin_.y()) * per_cell_,
+                z = (pz - origin_.z()) * per_cell_;
+    // Compares as float: points far outside would overflow an int.
+    if (!(x >= 0.0f && y >= 0.0f && z >= 0.0f && x < float(size_.x()) && y < float(size_.y()) &&
+          z < float(size_.z())))
+      return kNone;
+    return nearest_[std::size_t(int(x) + size_.x() * (int(y) + size_.y() * int(z)))];
   }
 
  private:

@@ -196,30 +196,22 @@ class PassSearch {
   Result<std::vector<std::vector<ObjectPart>>> join(const RunContext& context) {
     // Stated poses of several objects are not questioned.
     if (several_objects() && any_stated()) return std::vector<std::vector<ObjectPart>>();
-    TURNSCAN_ASSIGN(auto by_shape, join_tables(context));
-    const bool open = std::any_of(by_shape.begin(), by_shape.end(),
-                                  [](const auto& parts) { return parts[0].motion.open; });
-    if (!open) return by_shape;
-    TURNSCAN_ASSIGN(const bool colored, color_tables(context));
-    if (!colored) return by_shape;
-    return join_tables(context);
-  }
-
-  Result<std::vector<std::vector<ObjectPart>>> join_tables(const RunContext& context) const {
     std::vector<std::vector<PassSurface>> surfaces;
     for (std::size_t k = 0; k < passes_.size(); ++k) {
       surfaces.push_back(tables_[k].objects);
       if (passes_[k].refine) surfaces.back().clear();  // excluded from the search
     }
-    return passes::join_objects(surfaces, {}, context);
+    return passes::join_objects(surfaces, {}, context,
+                                [&] { return color_tables(surfaces, context); });
   }
 
   /// Whether at least two passes have colours. Colours are used only if shapes are ambiguous.
-  Result<bool> color_tables(const RunContext& context) {
+  Result<bool> color_tables(std::vector<std::vector<PassSurface>>& surfaces,
+                            const RunContext& context) const {
     std::size_t colored = 0;
     for (std::size_t k = 0; k < passes_.size(); ++k) {
-      TURNSCAN_TRY(color_surfaces(passes_[k].frames, tables_[k].objects, context));
-      colored += std::any_of(tables_[k].objects.begin(), tables_[k].objects.end(),
+      TURNSCAN_TRY(color_surfaces(passes_[k].frames, surfaces[k], context));
+      colored += std::any_of(surfaces[k].begin(), surfaces[k].end(),
                              [](const PassSurface& object) { return !object.colors.empty(); });
     }
     return colored > 1;
