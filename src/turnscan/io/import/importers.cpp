@@ -81,7 +81,7 @@ const std::vector<Importer>& table() {
        open_rtabmap,
        {"depth-unit", "device-poses", "world-up", "clockwise"}},
       {{ImportFormat::kRosbag, "rosbag",
-        "ROS 1 bag, of a RealSense or with images of depth (.bag)"},
+        "bag of ROS 1 or 2, of a RealSense or with images of depth (.bag, .mcap, .db3, folder)"},
        open_rosbag,
        {"depth-unit", "intrinsics", "topic", "clockwise"}},
       {{ImportFormat::kNerfstudio, "nerfstudio",
@@ -117,6 +117,7 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
   const bool images = has("depth") || any(is_depth_name);
   if (!options.angles.empty())
     return images && !clouds ? ImportFormat::kDepthFolder : ImportFormat::kCloudFolder;
+  if (any(rosbag::is_part_name)) return ImportFormat::kRosbag;
   if (has("scene_camera.json")) return ImportFormat::kBop;
   if (has("transforms.json")) return ImportFormat::kNerfstudio;
   if (has("depth.txt")) return ImportFormat::kTumRgbd;
@@ -153,7 +154,7 @@ ImportFormat recognise_file(const fs::path& path) {
   if (!begin) return ImportFormat::kAuto;
   if (path.extension() == ".r3d" || begins_as_record3d(*begin)) return ImportFormat::kRecord3d;
   if (sens::looks_like_sens(*begin)) return ImportFormat::kSens;
-  if (begin->starts_with(rosbag::kMagic)) return ImportFormat::kRosbag;
+  if (rosbag::looks_like_bag(*begin)) return ImportFormat::kRosbag;
   return ImportFormat::kAuto;
 }
 

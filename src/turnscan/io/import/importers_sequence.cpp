@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <numeric>
+#include <set>
 #include <stdexcept>
+#include <turnscan/core/spread.hpp>
+#include <turnscan/core/units.hpp>
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/image/image_io.hpp>
@@ -50,13 +54,40 @@ std::vector<ForeignFrame>::const_iterator first_colored(const std::vector<Foreig
 }  // namespace
 
 ForeignSequence::ForeignSequence(SequenceHeader header, const std::vector<ForeignFrame>& frames,
-                                 const Eigen::Matrix3d& scan_to_sensor)
-    : header_(std::move(header)), scan_to_sensor_(scan_to_sensor) {
+                                 const Eigen::Matrix3d& scan_to_sensor,
+                                 const DepthFileOptions& depth_files)
+    : header_(std::move(header)), scan_to_sensor_(scan_to_sensor), depth_files_(depth_files) {
   header_.software = fmt::format("turnscan {}", version());
   for (const ForeignFrame& frame : frames) {
     frames_.push_back(frame.info);
     files_.push_back({frame.data, frame.color});
   }
+  if (header_.sensors.size() != 1 || header_.sensors[0].kind == SensorKind::kPointScanner) return;
+  steps_ = steps_of_sensor();
+  if (steps_ == 1) return;
+  double& unit_m = header_.sensors[0].depth_unit_m;
+  unit_m *= steps_;
+  add_note(header_, fmt::format("every depth is a multiple of {} steps: the sensor's are {}",
+                                steps_, format_quantity(unit_m, Quantity::kLength)));
+}
+
+std::uint16_t ForeignSequence::steps_of_sensor() const {
+  // That so many different values are even by chance has a probability of 2^-30.
+  constexpr std::size_t kSurely = 30;
+  std::set<std::uint16_t> values;
+  unsigned divisor = 0;
+  for (const std::size_t i : evenly_spread(files_.size(), 3)) {
+    const auto image = frames_[i].status == FrameStatus::kDropped
+                           ? Result<DepthImage>()
+                           : read_foreign_depth(files_[i].data, depth_files_);
+    if (!image) continue;  // told when the frame is read
+    for (const std::uint16_t value : image->pixels) {
+      divisor = std::gcd(divisor, unsigned(value));
+      if (divisor == 1) return 1;
+      if (value != kNoReturn && values.size() < kSurely) values.insert(value);
+    }
+  }
+  return values.size() < kSurely ? 1 : std::uint16_t(divisor);
 }
 
 Result<Frame> ForeignSequence::read(std::size_t position) const {
@@ -74,6 +105,9 @@ Result<Frame> ForeignSequence::read(std::size_t position) const {
   }
   TURNSCAN_ASSIGN(frame.depth, read_foreign_depth(files.data, depth_files_));
   TURNSCAN_TRY(check_size(frame.depth, sensor.intrinsics, files.data));
+  if (steps_ > 1)
+    for (std::uint16_t& value : frame.depth.pixels)
+      value = std::uint16_t((value + steps_ / 2U) / steps_);
   if (files.color.empty()) return frame;
   TURNSCAN_TRY(read_frame_color(files.color, frame));
   TURNSCAN_TRY(
