@@ -32,4 +32,11 @@ void look_at_viewpoint(std::size_t number, const SensorInfo& sensor,
 /// others.
 void look_at_motion(std::size_t number, const std::vector<Frame>& frames, Findings& out);
 
+/// Images whose numbers were sorted as text: those with successive numbers are alike, neighbours
+/// are not. Reads up to 16 more for each of two kinds of numbering. frames: as above. Fails only
+/// with kCancelled.
+Result<> look_at_succession(const FrameSequence& sequence, std::uint32_t number,
+                            const std::vector<Frame>& frames, const RunContext& context,
+                            Findings& out);
+
 }  // namespace turnscan::plausibility

@@ -55,6 +55,7 @@ Result<std::vector<PlausibilityFinding>> find_implausible(const FrameSequence& s
       return f.info.T_table_sensor.has_value();
     });
     if (!posed) plausibility::look_at_motion(i, frames, out);
+    TURNSCAN_TRY(plausibility::look_at_succession(sequence, i, frames, context, out));
   }
   return out;
 }
