@@ -162,6 +162,31 @@ TEST(Plausibility, AFewViewsFarApartShowThatSomethingTurns) {
   EXPECT_EQ(only(scan).text, "");
 }
 
+TEST(Plausibility, KnowsImagesInTheOrderOfNumbersSortedAsText) {
+  MemorySequence scan;
+  scan.header_value.sensors = scan_of_bump().header_value.sensors;
+  std::vector<int> numbers;
+  for (int i = 1; i <= 24; ++i) numbers.push_back(i);
+  const auto filled = [&] {
+    scan = MemorySequence();
+    scan.header_value.sensors = scan_of_bump().header_value.sensors;
+    for (const int number : numbers) {
+      Frame frame;
+      frame.info.index = std::uint32_t(scan.data.size());
+      frame.info.angle_rad = 0.2 * double(frame.info.index);
+      frame.depth = bump_at(8 + number, number, 900.0);
+      scan.add(std::move(frame));
+    }
+    return only(scan).text;
+  };
+  EXPECT_EQ(filled(), "");
+  std::sort(numbers.begin(), numbers.end(),
+            [](int a, int b) { return std::to_string(a) < std::to_string(b); });
+  EXPECT_EQ(filled().find("the images of sensor 0 are in the order of numbers that were sorted as "
+                          "text (1, 10, 11"),
+            0u);
+}
+
 TEST(Plausibility, SaysWhereTheSurroundingsMove) {
   MemorySequence scan;
   scan.header_value.sensors = scan_of_bump().header_value.sensors;
