@@ -187,6 +187,36 @@ TEST(Plausibility, KnowsImagesInTheOrderOfNumbersSortedAsText) {
             0u);
 }
 
+/// Poses of a camera that goes round a place 0.8 m before it.
+MemorySequence scan_around(double distance_m) {
+  MemorySequence scan = scan_of_bump();
+  for (std::size_t i = 0; i < scan.data.size(); ++i) {
+    Pose pose = Pose(Eigen::AngleAxisd(0.3 * double(i), Vec3d::UnitY()));
+    pose.translation() = -distance_m * pose.linear().col(2);
+    scan.data[i].info.T_table_sensor = scan.infos[i].T_table_sensor = pose;
+  }
+  return scan;
+}
+
+TEST(Plausibility, KnowsPosesThatAreInverted) {
+  MemorySequence scan = scan_around(0.8);
+  EXPECT_EQ(only(scan).text, "");
+  for (std::size_t i = 0; i < scan.data.size(); ++i)
+    scan.data[i].info.T_table_sensor = scan.data[i].info.T_table_sensor->inverse();
+  expect_implausible(scan, "the poses of sensor 0 turn on the spot");
+}
+
+TEST(Plausibility, KnowsPosesThatLookAway) {
+  MemorySequence scan = scan_around(-0.8);
+  expect_implausible(scan, "the poses of sensor 0 look away");
+}
+
+TEST(Plausibility, KnowsDepthThatIsNotWherePosesLook) {
+  MemorySequence scan = scan_around(0.8);
+  sensor_of(scan).depth_unit_m = 1e-4 * 2;
+  expect_implausible(scan, "the lines of sight of the poses meet 800mm from the sensor");
+}
+
 TEST(Plausibility, SaysWhereTheSurroundingsMove) {
   MemorySequence scan;
   scan.header_value.sensors = scan_of_bump().header_value.sensors;

@@ -84,6 +84,9 @@ const std::vector<Importer>& table() {
         "bag of ROS 1 or 2, of a RealSense or with images of depth (.bag, .mcap, .db3, folder)"},
        open_rosbag,
        {"depth-unit", "intrinsics", "topic", "clockwise"}},
+      {{ImportFormat::kKlg, "klg", "recording of Logger2 for ElasticFusion (.klg)"},
+       open_klg,
+       {"depth-unit", "intrinsics", "clockwise"}},
       {{ImportFormat::kNerfstudio, "nerfstudio",
         "nerfstudio's transforms.json with depth (also of Polycam and Record3D)"},
        open_nerfstudio,
@@ -148,6 +151,7 @@ bool begins_as_record3d(std::string_view begin) {
 ImportFormat recognise_file(const fs::path& path) {
   if (path.extension() == ".mkv" || matroska::is_matroska_file(path))
     return ImportFormat::kMatroska;
+  if (path.extension() == ".klg") return ImportFormat::kKlg;
   const auto file = file::RandomAccessFile::open(path);
   if (!file) return ImportFormat::kAuto;
   const auto begin = file->read(0, std::min<std::uint64_t>(file->size(), 64));
@@ -159,8 +163,8 @@ ImportFormat recognise_file(const fs::path& path) {
 }
 
 bool is_mesh_name(const fs::path& path) {
-  constexpr std::array<std::string_view, 8> kEndings{"ply", "obj", "stl",  "off",
-                                                     "3mf", "glb", "gltf", "pcd"};
+  constexpr std::array<std::string_view, 11> kEndings{"ply",  "obj", "stl", "off", "3mf", "glb",
+                                                      "gltf", "pcd", "xyz", "asc", "pts"};
   const std::string ending = file::lower_extension(path);
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
@@ -265,7 +269,7 @@ OptionTable describe(ImportOptions& o) {
   table.choice("format", o.format,
                {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png",
                 "matroska", "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap",
-                "rosbag", "nerfstudio", "bop", "depth-folder"},
+                "rosbag", "klg", "nerfstudio", "bop", "depth-folder"},
                "Layout of the data set; auto recognises it by its files");
   table.text("topic", o.topic, "Topic of a ROS bag's depth images, where several hold depth");
   table.text(

@@ -19,6 +19,7 @@ struct ForeignFrame {
   FrameInfo info;
   std::filesystem::path data;
   std::filesystem::path color;
+  std::vector<std::filesystem::path> masks;  ///< what they show is kept; empty: all
 };
 
 /// A data set whose files are read when their frames are read.
@@ -39,6 +40,7 @@ class ForeignSequence : public FrameSequence {
 
   struct Files {
     std::filesystem::path data, color;
+    std::vector<std::filesystem::path> masks;
   };
   SequenceHeader header_;
   std::vector<FrameInfo> frames_;
@@ -64,6 +66,8 @@ OpenResult open_record3d(const std::filesystem::path& path, const ImportOptions&
                          const RunContext& context);
 OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& options,
                      const RunContext& context);
+OpenResult open_klg(const std::filesystem::path& path, const ImportOptions& options,
+                    const RunContext& context);
 OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_depth_folder(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_nerfstudio(const std::filesystem::path& path, const ImportOptions& options);

@@ -46,6 +46,24 @@ Result<> check_size(const Image& image, const CameraIntrinsics& camera,
                  image.height, camera.width, camera.height);
 }
 
+/// Where no mask is white, nothing is known: another object may stand before this one.
+Result<> keep_masked(const std::vector<std::filesystem::path>& masks, DepthImage& depth) {
+  if (masks.empty()) return {};
+  std::vector<char> kept(depth.pixels.size(), 0);
+  for (const std::filesystem::path& path : masks) {
+    TURNSCAN_ASSIGN(const ColorImage mask, read_color(path));
+    if (mask.width != depth.width || mask.height != depth.height)
+      return fail_at(path.string(), ErrorCode::kFormat,
+                     "the mask has {} x {} pixels, its depth image {} x {}", mask.width,
+                     mask.height, depth.width, depth.height);
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (mask.pixels[i].g > 0) kept[i] = 1;
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i] == 0) depth.pixels[i] = kNoReturn;
+  return {};
+}
+
 std::vector<ForeignFrame>::const_iterator first_colored(const std::vector<ForeignFrame>& frames) {
   return std::find_if(frames.begin(), frames.end(),
                       [](const ForeignFrame& f) { return !f.color.empty(); });
@@ -60,7 +78,7 @@ ForeignSequence::ForeignSequence(SequenceHeader header, const std::vector<Foreig
   header_.software = fmt::format("turnscan {}", version());
   for (const ForeignFrame& frame : frames) {
     frames_.push_back(frame.info);
-    files_.push_back({frame.data, frame.color});
+    files_.push_back({frame.data, frame.color, frame.masks});
   }
   if (header_.sensors.size() != 1 || header_.sensors[0].kind == SensorKind::kPointScanner) return;
   steps_ = steps_of_sensor();
@@ -108,6 +126,7 @@ Result<Frame> ForeignSequence::read(std::size_t position) const {
   if (steps_ > 1)
     for (std::uint16_t& value : frame.depth.pixels)
       value = std::uint16_t((value + steps_ / 2U) / steps_);
+  TURNSCAN_TRY(keep_masked(files.masks, frame.depth));
   if (files.color.empty()) return frame;
   TURNSCAN_TRY(read_frame_color(files.color, frame));
   TURNSCAN_TRY(

@@ -21,6 +21,15 @@ void look_at_range(std::size_t number, const SensorInfo& sensor, const std::vect
 void look_at_table(const SensorInfo& sensor, const TurntableInfo& table,
                    const std::vector<Frame>& frames, Findings& out);
 
+/// Nearly all depth at less than half, or more than twice, of what is known of its distance.
+void look_at_distance(const SensorInfo& sensor, double there_m, std::string_view what,
+                      const std::vector<Frame>& frames, Findings& out);
+
+/// Poses that turn on the spot or look away from what they go round, as inverted ones and those of
+/// another convention do, and depth that is nowhere near what they look at.
+void look_at_poses(std::size_t number, const SensorInfo& sensor, const std::vector<Frame>& frames,
+                   Findings& out);
+
 /// 16-bit depth whose bytes are swapped. True if they are: other findings have no meaning then.
 bool look_at_bytes(std::size_t number, const std::vector<Frame>& frames, Findings& out);
 
