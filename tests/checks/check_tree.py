@@ -48,7 +48,7 @@ HOSTS = {"www.apache.org", "github.com", "www.collada.org", "graphics.stanford.e
          "schemas.microsoft.com", "schemas.openxmlformats.org", "www.w3.org", "example.com",
          "paulbourke.net", "pointclouds.org", "docs.opencv.org", "cvg.cit.tum.de", "learn.microsoft.com",
          "registry.khronos.org", "json.nlohmann.me", "toml.io", "semver.org", "keepachangelog.com",
-         "wiki.ros.org", "docs.ros.org", "www.ros.org", "docs.artec-group.com", "www.shining3d.com",
+         "wiki.ros.org", "docs.ros.org", "www.ros.org", "mcap.dev", "docs.artec-group.com", "www.shining3d.com",
          "docs.shining3d.com", "www.cloudcompare.org"}
 URL = re.compile(r"https?://([A-Za-z0-9.-]+)")
 # Folders of one person's machine. The leading character keeps paths inside URLs out.

@@ -236,6 +236,21 @@ class Export(harness.TestCase):
             self.ok("reconstruct", scene, *COARSE, "--crop-radius", "150mm", "-o", f"{layout}.ply", "--quiet")
             self.assertGreater(self.share(f"{layout}.ply", truth), native - 0.02, layout)
 
+    def test_depth_of_a_scene_with_masks_is_that_of_its_objects(self):
+        self.export("skull", "bop", "--every", 12)
+        scene = self.dir / "bop/test/000001"
+        self.ok("import", scene, "--out", "all", "--quiet")
+        (scene / "mask").rename(scene / "mask_visib")
+        self.ok("import", scene, "--out", "masked", "--quiet")
+        self.assertIn("mask_visib", (self.dir / "masked/recording.json").read_text())
+        for i in range(2):
+            mask = read_png(scene / f"mask_visib/{i:06}_000000.png")
+            every, some = (read_png(self.dir / f"{name}/depth/{i:06}.png") for name in ("all", "masked"))
+            self.assertEqual([list(row) for row in some],
+                             [[d if m else 0 for d, m in zip(*rows)] for rows in zip(every, mask)])
+        (scene / "mask_visib/000001_000000.png").unlink()
+        self.refused(FAILED, "info", scene, says=["image 1 has no mask", "move the folder away"])
+
     def test_what_cannot_be_exported_is_refused(self):
         rec = recordings.folder_of("skull")
         self.refused(USAGE, "export", rec, "--to", "gltf", "-o", "x", says=["gltf", "nerfstudio"])

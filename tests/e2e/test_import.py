@@ -173,5 +173,47 @@ class Captures(harness.TestCase):
                      says=("text.r3d", "no zip archive"))
 
 
+
+class Klg(harness.TestCase):
+    """Logger2's recordings, written as its header defines them."""
+
+    def put(self, frames, stated=None, packed=True, colour=True):
+        out = struct.pack("<i", len(frames) if stated is None else stated)
+        for i, depth in enumerate(frames):
+            rows = struct.pack("<307200H", *depth)
+            rows = zlib.compress(rows, 1) if packed else rows
+            pixels = bytes((200, 100, i)) * 307200 if colour else b""
+            out += struct.pack("<qii", 1_700_000_000_000_000 + 33_333 * i, len(rows), len(pixels)) + rows + pixels
+        (self.dir / "a.klg").write_bytes(out)
+        return out
+
+    def frames(self):
+        return [[700 + (x + 3 * i) % 200 if x % 7 else 0 for x in range(307200)] for i in range(3)]
+
+    def test_a_recording_is_read(self):
+        frames = self.frames()
+        for packed, colour, stated in ((True, True, 3), (False, False, 0)):
+            self.put(frames, stated, packed, colour)
+            self.refused(FAILED, "import", "a.klg", "--out", "x", says="--intrinsics")
+            harness.remove(self.dir / "got")
+            self.ok("import", "a.klg", "--intrinsics", "528,528,320,240", "--out", "got", "--quiet")
+            sensor = json.loads((self.dir / "got/recording.json").read_text())["sensors"][0]
+            self.assertEqual(sensor["depth_unit_m"], 0.001)
+            self.assertEqual(list(depth_png(self.dir / "got/depth/000001.png")[2]), frames[1])
+            lines = (self.dir / "got/frames.csv").read_text().splitlines()
+            self.assertAlmostEqual(float(lines[3].split(",")[1]), 0.066666, delta=1e-6)
+            self.assertEqual((self.dir / "got/color").exists(), colour)
+
+    def test_what_is_cut_off_or_none_says_so(self):
+        whole = self.put(self.frames())
+        (self.dir / "a.klg").write_bytes(whole[:-100])
+        self.ok("import", "a.klg", "--intrinsics", "528,528,320,240", "--out", "got", "--quiet")
+        self.assertIn("its first 2 frames of 3", (self.dir / "got/recording.json").read_text())
+        for bad, says in ((whole[:3], "ends"), (b"\x01\0\0\0" + bytes(16), "unpack"), (whole[:1000], "no whole frame"),
+                          (whole[:8] + b"\xff" * 12 + whole[20:], "no whole frame")):
+            (self.dir / "a.klg").write_bytes(bad)
+            self.refused(FAILED, "info", "a.klg", says=says)
+
+
 if __name__ == "__main__":
     harness.main()

@@ -1,4 +1,4 @@
-// The input is a bag. A byte 0 before it states a topic and a camera.
+// The input is a bag of ROS 1 or 2. A byte 0 before it states a topic and a camera.
 
 #include "tests/fuzz/scratch_folder.hpp"
 

@@ -161,7 +161,7 @@ void ExplorerMode::open_dialog() {
   const QStringList files = QFileDialog::getOpenFileNames(
       this, tr("Open meshes, clouds or recordings"), settings.value("files/folder").toString(),
       tr("Meshes, clouds and recordings (*.ply *.pcd *.stl *.obj *.off *.3mf *.glb *.dae *.fbx "
-         "recording.json *.bag *.mkv *.r3d *.sens *.conf *.json);;All files (*)"));
+         "recording.json *.bag *.mcap *.db3 *.mkv *.r3d *.sens *.conf *.json);;All files (*)"));
   for (const QString& file : files) {
     settings.setValue("files/folder", QFileInfo(file).absolutePath());
     load(file, {});

@@ -1801,8 +1801,8 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
         <translation>Abrir mallas, nubes o grabaciones</translation>
     </message>
     <message>
-        <source>Meshes, clouds and recordings (*.ply *.pcd *.stl *.obj *.off *.3mf *.glb *.dae *.fbx recording.json *.bag *.mkv *.r3d *.sens *.conf *.json);;All files (*)</source>
-        <translation>Mallas, nubes y grabaciones (*.ply *.pcd *.stl *.obj *.off *.3mf *.glb *.dae *.fbx recording.json *.bag *.mkv *.r3d *.sens *.conf *.json);;Todos los archivos (*)</translation>
+        <source>Meshes, clouds and recordings (*.ply *.pcd *.stl *.obj *.off *.3mf *.glb *.dae *.fbx recording.json *.bag *.mcap *.db3 *.mkv *.r3d *.sens *.conf *.json);;All files (*)</source>
+        <translation>Mallas, nubes y grabaciones (*.ply *.pcd *.stl *.obj *.off *.3mf *.glb *.dae *.fbx recording.json *.bag *.mcap *.db3 *.mkv *.r3d *.sens *.conf *.json);;Todos los archivos (*)</translation>
     </message>
     <message>
         <source>Save %1</source>

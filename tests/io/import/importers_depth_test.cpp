@@ -392,6 +392,29 @@ TEST(Tum, DepthHas5000StepsAMetreAndItSaysSo) {
   EXPECT_DOUBLE_EQ(open(folder.path(), stated)->header().sensors[0].depth_unit_m, 0.001);
 }
 
+/// An image whose values are multiples of a number, in a folder of 5000 steps a metre.
+std::unique_ptr<FrameSequence> in_steps_of(const TempFolder& folder, unsigned steps) {
+  DepthImage image(40, 2);
+  for (unsigned i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = std::uint16_t(i == 3 ? 65535 : steps * (1000 + i / 2));
+  EXPECT_TRUE(write_depth_png(folder / "a.png", image));
+  folder.put("depth.txt", "0 a.png\n");
+  folder.put("cam_K.txt", "500 0 20 0 500 1 0 0 1");
+  return open(folder.path());
+}
+
+TEST(Tum, DepthsThatAreAllMultiplesAreReadInTheStepsOfTheirSensor) {
+  const TempFolder rounded, fine;
+  const auto got = in_steps_of(rounded, 5), as_it_is = in_steps_of(fine, 1);
+  EXPECT_DOUBLE_EQ(got->header().sensors[0].depth_unit_m, 1e-3);
+  EXPECT_THAT(got->header().source, HasSubstr("a multiple of 5 steps: the sensor's are 1mm"));
+  const Frame frame = frame_of(*got, 0);
+  EXPECT_EQ(frame.depth.at(10, 0), 1005);
+  EXPECT_EQ(frame.depth.at(3, 0), kNoReturn);
+  EXPECT_EQ(as_it_is->header().sensors[0].depth_unit_m, 1.0 / 5000);
+  EXPECT_EQ(frame_of(*as_it_is, 0).depth.at(10, 0), 1005);
+}
+
 TEST(Tum, FramesAreInTheOrderOfTimeWithTheColourNearest) {
   const TempFolder folder;
   put_tum(folder);

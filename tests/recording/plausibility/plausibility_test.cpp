@@ -162,6 +162,61 @@ TEST(Plausibility, AFewViewsFarApartShowThatSomethingTurns) {
   EXPECT_EQ(only(scan).text, "");
 }
 
+TEST(Plausibility, KnowsImagesInTheOrderOfNumbersSortedAsText) {
+  MemorySequence scan;
+  scan.header_value.sensors = scan_of_bump().header_value.sensors;
+  std::vector<int> numbers;
+  for (int i = 1; i <= 24; ++i) numbers.push_back(i);
+  const auto filled = [&] {
+    scan = MemorySequence();
+    scan.header_value.sensors = scan_of_bump().header_value.sensors;
+    for (const int number : numbers) {
+      Frame frame;
+      frame.info.index = std::uint32_t(scan.data.size());
+      frame.info.angle_rad = 0.2 * double(frame.info.index);
+      frame.depth = bump_at(8 + number, number, 900.0);
+      scan.add(std::move(frame));
+    }
+    return only(scan).text;
+  };
+  EXPECT_EQ(filled(), "");
+  std::sort(numbers.begin(), numbers.end(),
+            [](int a, int b) { return std::to_string(a) < std::to_string(b); });
+  EXPECT_EQ(filled().find("the images of sensor 0 are in the order of numbers that were sorted as "
+                          "text (1, 10, 11"),
+            0u);
+}
+
+/// Poses of a camera that goes round a place 0.8 m before it.
+MemorySequence scan_around(double distance_m) {
+  MemorySequence scan = scan_of_bump();
+  for (std::size_t i = 0; i < scan.data.size(); ++i) {
+    Pose pose = Pose(Eigen::AngleAxisd(0.3 * double(i), Vec3d::UnitY()));
+    pose.translation() = -distance_m * pose.linear().col(2);
+    scan.data[i].info.T_table_sensor = scan.infos[i].T_table_sensor = pose;
+  }
+  return scan;
+}
+
+TEST(Plausibility, KnowsPosesThatAreInverted) {
+  MemorySequence scan = scan_around(0.8);
+  EXPECT_EQ(only(scan).text, "");
+  for (std::size_t i = 0; i < scan.data.size(); ++i)
+    scan.data[i].info.T_table_sensor = scan.data[i].info.T_table_sensor->inverse();
+  expect_implausible(scan, "the poses of sensor 0 turn on the spot");
+}
+
+TEST(Plausibility, KnowsPosesThatLookAway) {
+  MemorySequence scan = scan_around(-0.8);
+  expect_implausible(scan, "the poses of sensor 0 look away");
+}
+
+TEST(Plausibility, KnowsDepthThatIsNotWherePosesLook) {
+  MemorySequence scan = scan_around(0.8);
+  sensor_of(scan).depth_unit_m = 1e-4 * 2;
+  expect_implausible(scan, "the lines of sight of the poses meet 800mm from the sensor");
+}
+
 TEST(Plausibility, SaysWhereTheSurroundingsMove) {
   MemorySequence scan;
   scan.header_value.sensors = scan_of_bump().header_value.sensors;

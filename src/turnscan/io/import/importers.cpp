@@ -81,9 +81,12 @@ const std::vector<Importer>& table() {
        open_rtabmap,
        {"depth-unit", "device-poses", "world-up", "clockwise"}},
       {{ImportFormat::kRosbag, "rosbag",
-        "ROS 1 bag, of a RealSense or with images of depth (.bag)"},
+        "bag of ROS 1 or 2, of a RealSense or with images of depth (.bag, .mcap, .db3, folder)"},
        open_rosbag,
        {"depth-unit", "intrinsics", "topic", "clockwise"}},
+      {{ImportFormat::kKlg, "klg", "recording of Logger2 for ElasticFusion (.klg)"},
+       open_klg,
+       {"depth-unit", "intrinsics", "clockwise"}},
       {{ImportFormat::kNerfstudio, "nerfstudio",
         "nerfstudio's transforms.json with depth (also of Polycam and Record3D)"},
        open_nerfstudio,
@@ -117,6 +120,7 @@ ImportFormat recognise_folder(const std::vector<std::string>& names, const Impor
   const bool images = has("depth") || any(is_depth_name);
   if (!options.angles.empty())
     return images && !clouds ? ImportFormat::kDepthFolder : ImportFormat::kCloudFolder;
+  if (any(rosbag::is_part_name)) return ImportFormat::kRosbag;
   if (has("scene_camera.json")) return ImportFormat::kBop;
   if (has("transforms.json")) return ImportFormat::kNerfstudio;
   if (has("depth.txt")) return ImportFormat::kTumRgbd;
@@ -147,19 +151,20 @@ bool begins_as_record3d(std::string_view begin) {
 ImportFormat recognise_file(const fs::path& path) {
   if (path.extension() == ".mkv" || matroska::is_matroska_file(path))
     return ImportFormat::kMatroska;
+  if (path.extension() == ".klg") return ImportFormat::kKlg;
   const auto file = file::RandomAccessFile::open(path);
   if (!file) return ImportFormat::kAuto;
   const auto begin = file->read(0, std::min<std::uint64_t>(file->size(), 64));
   if (!begin) return ImportFormat::kAuto;
   if (path.extension() == ".r3d" || begins_as_record3d(*begin)) return ImportFormat::kRecord3d;
   if (sens::looks_like_sens(*begin)) return ImportFormat::kSens;
-  if (begin->starts_with(rosbag::kMagic)) return ImportFormat::kRosbag;
+  if (rosbag::looks_like_bag(*begin)) return ImportFormat::kRosbag;
   return ImportFormat::kAuto;
 }
 
 bool is_mesh_name(const fs::path& path) {
-  constexpr std::array<std::string_view, 8> kEndings{"ply", "obj", "stl",  "off",
-                                                     "3mf", "glb", "gltf", "pcd"};
+  constexpr std::array<std::string_view, 11> kEndings{"ply",  "obj", "stl", "off", "3mf", "glb",
+                                                      "gltf", "pcd", "xyz", "asc", "pts"};
   const std::string ending = file::lower_extension(path);
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
@@ -264,7 +269,7 @@ OptionTable describe(ImportOptions& o) {
   table.choice("format", o.format,
                {"auto", "stanford-conf", "cloud-folder", "tum", "frame-pose", "json-png",
                 "matroska", "open3d-rgbd", "record3d", "sens", "3d-scanner-app", "rtabmap",
-                "rosbag", "nerfstudio", "bop", "depth-folder"},
+                "rosbag", "klg", "nerfstudio", "bop", "depth-folder"},
                "Layout of the data set; auto recognises it by its files");
   table.text("topic", o.topic, "Topic of a ROS bag's depth images, where several hold depth");
   table.text(

@@ -29,6 +29,7 @@ enum class ImportFormat {
   kScannerApp,
   kRtabmap,
   kRosbag,
+  kKlg,
   kNerfstudio,
   kBop,
   kDepthFolder

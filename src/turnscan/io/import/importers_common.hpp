@@ -19,28 +19,35 @@ struct ForeignFrame {
   FrameInfo info;
   std::filesystem::path data;
   std::filesystem::path color;
+  std::vector<std::filesystem::path> masks;  ///< what they show is kept; empty: all
 };
 
 /// A data set whose files are read when their frames are read.
 class ForeignSequence : public FrameSequence {
  public:
-  /// scan_to_sensor maps the coordinates of scans to metres in the sensor frame.
+  /// scan_to_sensor maps the coordinates of scans to metres in the sensor frame. Where all depths
+  /// are multiples of several steps, as those of a sensor with longer ones, these become the
+  /// recording's: what is estimated of rounding rests on them.
   ForeignSequence(SequenceHeader header, const std::vector<ForeignFrame>& frames,
-                  const Eigen::Matrix3d& scan_to_sensor = Eigen::Matrix3d::Identity());
+                  const Eigen::Matrix3d& scan_to_sensor = Eigen::Matrix3d::Identity(),
+                  const DepthFileOptions& depth_files = {});
   const SequenceHeader& header() const override { return header_; }
   const std::vector<FrameInfo>& frames() const override { return frames_; }
   Result<Frame> read(std::size_t position) const override;
-  void set_depth_files(const DepthFileOptions& options) { depth_files_ = options; }
 
  private:
+  std::uint16_t steps_of_sensor() const;
+
   struct Files {
     std::filesystem::path data, color;
+    std::vector<std::filesystem::path> masks;
   };
   SequenceHeader header_;
   std::vector<FrameInfo> frames_;
   std::vector<Files> files_;
   Eigen::Matrix3d scan_to_sensor_;
   DepthFileOptions depth_files_;
+  std::uint16_t steps_ = 1;  ///< of the images, in one of the recording
 };
 
 using OpenResult = Result<std::unique_ptr<FrameSequence>>;
@@ -59,6 +66,8 @@ OpenResult open_record3d(const std::filesystem::path& path, const ImportOptions&
                          const RunContext& context);
 OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& options,
                      const RunContext& context);
+OpenResult open_klg(const std::filesystem::path& path, const ImportOptions& options,
+                    const RunContext& context);
 OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_depth_folder(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_nerfstudio(const std::filesystem::path& path, const ImportOptions& options);

@@ -203,9 +203,8 @@ OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& option
         "the images say neither times nor angles: state --fps or --angles where they are known");
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
-  auto out = std::make_unique<ForeignSequence>(std::move(header), frames);
-  out->set_depth_files(files);
-  return out;
+  return std::make_unique<ForeignSequence>(std::move(header), frames, Eigen::Matrix3d::Identity(),
+                                           files);
 }
 
 }  // namespace turnscan::importers

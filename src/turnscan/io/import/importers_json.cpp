@@ -300,9 +300,8 @@ OpenResult open_json_png(const fs::path& path, const ImportOptions& options) {
   TURNSCAN_ASSIGN(const DepthFileOptions files, float_files(frames, header.sensors.front()));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, description->on_platter, header));
-  auto out = std::make_unique<ForeignSequence>(std::move(header), frames);
-  out->set_depth_files(files);
-  return out;
+  return std::make_unique<ForeignSequence>(std::move(header), frames, Eigen::Matrix3d::Identity(),
+                                           files);
 }
 
 }  // namespace turnscan::importers

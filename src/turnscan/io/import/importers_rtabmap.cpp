@@ -237,7 +237,7 @@ OpenResult open_rtabmap(const fs::path& folder, const ImportOptions& options) {
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
   std::vector<ForeignFrame> images;
   for (RtabmapFrame& frame : frames)
-    images.push_back({std::move(frame.info), std::move(frame.depth), std::move(frame.color)});
+    images.push_back({std::move(frame.info), std::move(frame.depth), std::move(frame.color), {}});
   return std::make_unique<ForeignSequence>(std::move(header), images);
 }
 

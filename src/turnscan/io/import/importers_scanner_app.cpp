@@ -193,7 +193,7 @@ OpenResult open_scanner_app(const fs::path& folder, const ImportOptions& options
   std::vector<ForeignFrame> images;
   std::vector<fs::path> confidence;
   for (AppFrame& frame : frames) {
-    images.push_back({std::move(frame.info), std::move(frame.depth), std::move(frame.color)});
+    images.push_back({std::move(frame.info), std::move(frame.depth), std::move(frame.color), {}});
     confidence.push_back(std::move(frame.confidence));
   }
   return std::make_unique<AppSequence>(std::make_unique<ForeignSequence>(std::move(header), images),

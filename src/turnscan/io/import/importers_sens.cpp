@@ -1,5 +1,6 @@
-// Imports ScanNet's and SUN3D's .sens (io/sens/sens_file.hpp). The extrinsics of depth and colour
-// map depth points to the colour camera; poses are those of the base frame, camera to world.
+// Imports ScanNet's and SUN3D's .sens (io/sens/sens_file.hpp), and what ElasticFusion's Logger2
+// writes (io/sens/klg_file.hpp). The extrinsics of a .sens's depth and colour map depth points to
+// the colour camera; poses are those of the base frame, camera to world.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/import/importers_capture.hpp>
+#include <turnscan/io/sens/klg_file.hpp>
 #include <turnscan/io/sens/sens_file.hpp>
 
 namespace turnscan::importers {
@@ -14,6 +16,8 @@ namespace turnscan::importers {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double kKlgUnit_m = 1e-3;
 
 struct SensFrame {
   FrameInfo info;
@@ -66,9 +70,9 @@ class SensSequence : public FrameSequence {
 
  private:
   Result<> read_color(const sens::FramePlace& place, Frame& frame) const {
-    TURNSCAN_ASSIGN(const std::string bytes, file_.read(place.data_at, place.color_bytes));
+    TURNSCAN_ASSIGN(const std::string bytes, file_.read(place.color_at, place.color_bytes));
     if (sens_.color_packing == sens::ColorPacking::kRaw) {
-      TURNSCAN_ASSIGN(frame.color, raw_color(bytes, place.data_at));
+      TURNSCAN_ASSIGN(frame.color, raw_color(bytes, place.color_at));
       return {};
     }
     if (auto good = decode_frame_color(bytes, frame); !good)
@@ -77,7 +81,8 @@ class SensSequence : public FrameSequence {
     if (image.width == int(sens_.color_width) && image.height == int(sens_.color_height)) return {};
     return fail_at(file_.path().string(), ErrorCode::kFormat,
                    "the colour image at byte {} has {} x {} pixels, but the header says {} x {}",
-                   place.data_at, image.width, image.height, sens_.color_width, sens_.color_height);
+                   place.color_at, image.width, image.height, sens_.color_width,
+                   sens_.color_height);
   }
 
   Result<ColorImage> raw_color(const std::string& bytes, std::uint64_t at) const {
@@ -196,6 +201,45 @@ OpenResult open_sens(const fs::path& path, const ImportOptions& options,
                                  index.frames.size(), index.header.frame_count));
   TURNSCAN_ASSIGN(std::vector<SensFrame> frames,
                   place_frames(index.frames, *T_base_depth, options, header));
+  TURNSCAN_TRY(apply_turntable_options(options, true, header));
+  return std::make_unique<SensSequence>(std::move(header), std::move(file), std::move(index.header),
+                                        std::move(frames));
+}
+
+OpenResult open_klg(const fs::path& path, const ImportOptions& options, const RunContext& context) {
+  SequenceHeader header;
+  header.source = fmt::format("Logger2 recording {}", display_name(path));
+  TURNSCAN_ASSIGN(file::RandomAccessFile file, file::RandomAccessFile::open(path));
+  auto read = sens::read_klg_index(file, context);
+  if (!read) return at_path(path, read.error());
+  sens::Index& index = *read;
+  if (options.intrinsics.empty())
+    return fail_at(path.string(), ErrorCode::kMissingData,
+                   "the file does not say the intrinsics of its camera; state them: --intrinsics "
+                   "fx,fy,cx,cy (ElasticFusion takes 528,528,320,240 for 640 x 480 pixels)");
+  SensorInfo& sensor = header.sensors.emplace_back();
+  TURNSCAN_ASSIGN(sensor.intrinsics, stated_intrinsics(options));
+  sensor.intrinsics.width = int(index.header.depth_width);
+  sensor.intrinsics.height = int(index.header.depth_height);
+  TURNSCAN_TRY(sensor.intrinsics.check());
+  TURNSCAN_ASSIGN(sensor.depth_unit_m, depth_scale(options, kKlgUnit_m));
+  if (index.header.color_packing != sens::ColorPacking::kUnknown)
+    sensor.color_intrinsics = sensor.intrinsics;
+  if (index.frames.size() < index.header.frame_count)
+    add_note(header, fmt::format("the file is cut off: its first {} frames of {} are whole and "
+                                 "were taken",
+                                 index.frames.size(), index.header.frame_count));
+  std::vector<double> times = times_of(index.frames);
+  const bool timed = times_from_first(times);
+  if (!timed) add_note(header, "there are no times of the frames that increase");
+  std::vector<SensFrame> frames;
+  for (std::size_t i = 0; i < index.frames.size(); ++i) {
+    SensFrame& frame = frames.emplace_back();
+    frame.place = index.frames[i];
+    frame.info.index = std::uint32_t(i);
+    if (timed) frame.info.time_s = times[i];
+  }
+  if (timed) frames = with_dropped(std::move(frames), header);
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
   return std::make_unique<SensSequence>(std::move(header), std::move(file), std::move(index.header),
                                         std::move(frames));

@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <numeric>
+#include <set>
 #include <stdexcept>
+#include <turnscan/core/spread.hpp>
+#include <turnscan/core/units.hpp>
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/image/image_io.hpp>
@@ -42,6 +46,24 @@ Result<> check_size(const Image& image, const CameraIntrinsics& camera,
                  image.height, camera.width, camera.height);
 }
 
+/// Where no mask is white, nothing is known: another object may stand before this one.
+Result<> keep_masked(const std::vector<std::filesystem::path>& masks, DepthImage& depth) {
+  if (masks.empty()) return {};
+  std::vector<char> kept(depth.pixels.size(), 0);
+  for (const std::filesystem::path& path : masks) {
+    TURNSCAN_ASSIGN(const ColorImage mask, read_color(path));
+    if (mask.width != depth.width || mask.height != depth.height)
+      return fail_at(path.string(), ErrorCode::kFormat,
+                     "the mask has {} x {} pixels, its depth image {} x {}", mask.width,
+                     mask.height, depth.width, depth.height);
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      if (mask.pixels[i].g > 0) kept[i] = 1;
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    if (kept[i] == 0) depth.pixels[i] = kNoReturn;
+  return {};
+}
+
 std::vector<ForeignFrame>::const_iterator first_colored(const std::vector<ForeignFrame>& frames) {
   return std::find_if(frames.begin(), frames.end(),
                       [](const ForeignFrame& f) { return !f.color.empty(); });
@@ -50,13 +72,40 @@ std::vector<ForeignFrame>::const_iterator first_colored(const std::vector<Foreig
 }  // namespace
 
 ForeignSequence::ForeignSequence(SequenceHeader header, const std::vector<ForeignFrame>& frames,
-                                 const Eigen::Matrix3d& scan_to_sensor)
-    : header_(std::move(header)), scan_to_sensor_(scan_to_sensor) {
+                                 const Eigen::Matrix3d& scan_to_sensor,
+                                 const DepthFileOptions& depth_files)
+    : header_(std::move(header)), scan_to_sensor_(scan_to_sensor), depth_files_(depth_files) {
   header_.software = fmt::format("turnscan {}", version());
   for (const ForeignFrame& frame : frames) {
     frames_.push_back(frame.info);
-    files_.push_back({frame.data, frame.color});
+    files_.push_back({frame.data, frame.color, frame.masks});
   }
+  if (header_.sensors.size() != 1 || header_.sensors[0].kind == SensorKind::kPointScanner) return;
+  steps_ = steps_of_sensor();
+  if (steps_ == 1) return;
+  double& unit_m = header_.sensors[0].depth_unit_m;
+  unit_m *= steps_;
+  add_note(header_, fmt::format("every depth is a multiple of {} steps: the sensor's are {}",
+                                steps_, format_quantity(unit_m, Quantity::kLength)));
+}
+
+std::uint16_t ForeignSequence::steps_of_sensor() const {
+  // That so many different values are even by chance has a probability of 2^-30.
+  constexpr std::size_t kSurely = 30;
+  std::set<std::uint16_t> values;
+  unsigned divisor = 0;
+  for (const std::size_t i : evenly_spread(files_.size(), 3)) {
+    const auto image = frames_[i].status == FrameStatus::kDropped
+                           ? Result<DepthImage>()
+                           : read_foreign_depth(files_[i].data, depth_files_);
+    if (!image) continue;  // told when the frame is read
+    for (const std::uint16_t value : image->pixels) {
+      divisor = std::gcd(divisor, unsigned(value));
+      if (divisor == 1) return 1;
+      if (value != kNoReturn && values.size() < kSurely) values.insert(value);
+    }
+  }
+  return values.size() < kSurely ? 1 : std::uint16_t(divisor);
 }
 
 Result<Frame> ForeignSequence::read(std::size_t position) const {
@@ -74,6 +123,10 @@ Result<Frame> ForeignSequence::read(std::size_t position) const {
   }
   TURNSCAN_ASSIGN(frame.depth, read_foreign_depth(files.data, depth_files_));
   TURNSCAN_TRY(check_size(frame.depth, sensor.intrinsics, files.data));
+  if (steps_ > 1)
+    for (std::uint16_t& value : frame.depth.pixels)
+      value = std::uint16_t((value + steps_ / 2U) / steps_);
+  TURNSCAN_TRY(keep_masked(files.masks, frame.depth));
   if (files.color.empty()) return frame;
   TURNSCAN_TRY(read_frame_color(files.color, frame));
   TURNSCAN_TRY(

@@ -45,14 +45,15 @@ Result<std::array<std::vector<Shot>, 2>> shots_of(const Bag& bag, const BagStrea
     for (Shot& shot : shots[color]) in_file.push_back(&shot);
   }
   std::sort(in_file.begin(), in_file.end(), [](const Shot* a, const Shot* b) {
-    return std::tie(a->place.chunk, a->place.offset) < std::tie(b->place.chunk, b->place.offset);
+    return std::tie(a->place.file, a->place.chunk, a->place.offset) <
+           std::tie(b->place.file, b->place.chunk, b->place.offset);
   });
   parallel_for(in_file.size(), 16, [&](std::size_t i) {
     Shot& shot = *in_file[i];
     if (!bag.budget().state()) return;
     const auto message = bag.read(shot.place, kHeaderBytes);
     if (!message) return;
-    const auto header = rosbag::parse_header(message->bytes);
+    const auto header = rosbag::parse_header(message->bytes, message->wire);
     if (!header) return;
     shot.seq = header->seq;
     shot.stamp_ns = header->stamp_ns;
@@ -268,20 +269,20 @@ Result<DepthImage> BagSequence::depth_of(const MessagePlace& place) const {
   TURNSCAN_ASSIGN(const auto message, bag_.read(place));
   const double unit_m = header_.sensors.front().depth_unit_m;
   if (streams_.depth_compressed) {
-    TURNSCAN_ASSIGN(const auto image, rosbag::parse_compressed_image(message.bytes));
+    TURNSCAN_ASSIGN(const auto image, rosbag::parse_compressed_image(message.bytes, message.wire));
     return ros_depth(image, unit_m);
   }
-  TURNSCAN_ASSIGN(const auto image, rosbag::parse_image(message.bytes));
+  TURNSCAN_ASSIGN(const auto image, rosbag::parse_image(message.bytes, message.wire));
   return ros_depth(image, unit_m);
 }
 
 Result<> BagSequence::read_color(const MessagePlace& place, Frame& frame) const {
   TURNSCAN_ASSIGN(const auto message, bag_.read(place));
   if (streams_.color_compressed) {
-    TURNSCAN_ASSIGN(const auto image, rosbag::parse_compressed_image(message.bytes));
+    TURNSCAN_ASSIGN(const auto image, rosbag::parse_compressed_image(message.bytes, message.wire));
     return take_ros_color(image, frame);
   }
-  TURNSCAN_ASSIGN(const auto image, rosbag::parse_image(message.bytes));
+  TURNSCAN_ASSIGN(const auto image, rosbag::parse_image(message.bytes, message.wire));
   TURNSCAN_ASSIGN(frame.color, ros_color(image));
   return {};
 }

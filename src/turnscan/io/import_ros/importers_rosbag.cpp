@@ -1,5 +1,6 @@
-// Imports ROS 1 bags: RealSense recordings made by librealsense, and others with depth images.
+// Imports bags of ROS: RealSense recordings made by librealsense, and others with depth images.
 
+#include <algorithm>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/import_ros/bag_sequence.hpp>
 
@@ -14,6 +15,14 @@ OpenResult open_rosbag(const std::filesystem::path& path, const ImportOptions& o
     return fail_at(path.string(), ErrorCode::kFormat,
                    "there is no message in the bag{}{}; record again",
                    bag.cut().empty() ? "" : ", which could not be read to its end: ", bag.cut());
+  const auto& all = bag.connections();
+  if (std::all_of(all.begin(), all.end(), [](const rosbag::Connection& connection) {
+        return connection.wire() == rosbag::Wire::kOther;
+      }))
+    return fail_at(path.string(), ErrorCode::kUnsupported,
+                   "its messages are serialised as {}; record them as ROS does (ros1, cdr)",
+                   all.front().serialisation.empty() ? "nothing known"
+                                                     : all.front().serialisation.substr(0, 40));
   auto streams = is_realsense(bag) ? realsense_streams(bag, options) : ros_streams(bag, options);
   if (!streams) return at_path(path, streams.error());
   SequenceHeader header;

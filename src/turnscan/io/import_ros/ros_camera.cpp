@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <turnscan/io/file/clean_name.hpp>
 #include <turnscan/io/import_ros/ros_camera.hpp>
 
 namespace turnscan::importers {
@@ -70,7 +71,7 @@ Result<> take_lens(const CameraInfoMessage& info, CameraIntrinsics& camera) {
   }
   if (model != "Inverse Brown Conrady" || d.size() != 5)
     return fail(ErrorCode::kUnsupported, "the lens model '{}' with {} coefficients is not known",
-                model.substr(0, 60), d.size());
+                file::clean_name(model.substr(0, 60)), d.size());
   TURNSCAN_ASSIGN(const Coefficients lens,
                   inverted(Coefficients(Eigen::Map<const Coefficients>(d.data())), camera));
   std::copy_n(lens.data(), 5, camera.distortion.begin());

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <turnscan/io/file/clean_name.hpp>
 #include <turnscan/io/file/load_value.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/import_ros/ros_images.hpp>
@@ -56,7 +57,8 @@ Result<> check_rows(const ImageMessage& image, std::uint32_t pixel_bytes) {
       std::uint64_t(image.step) * (image.height - 1) + row > image.data.size())
     return fail(ErrorCode::kFormat,
                 "an image of {} x {} pixels ({}) does not fit its {} bytes; the message is damaged",
-                image.width, image.height, image.encoding.substr(0, 40), image.data.size());
+                image.width, image.height, file::clean_name(image.encoding.substr(0, 40)),
+                image.data.size());
   return {};
 }
 
@@ -126,7 +128,7 @@ Result<DepthImage> ros_depth(const ImageMessage& image, double unit_m) {
   const bool integers = is_integer_depth(image.encoding);
   if (!integers && !is_float_depth(image.encoding))
     return fail(ErrorCode::kUnsupported, "images of encoding '{}' hold no depth that can be read",
-                image.encoding.substr(0, 40));
+                file::clean_name(image.encoding.substr(0, 40)));
   TURNSCAN_TRY(check_rows(image, integers ? 2 : 4));
   DepthImage out(int(image.width), int(image.height));
   const auto per_metre = static_cast<float>(1.0 / unit_m);
@@ -157,7 +159,7 @@ Result<DepthImage> ros_depth(const CompressedImageMessage& image, double unit_m)
     return fail(ErrorCode::kUnsupported,
                 "a compressed image of format '{}' holds no depth that "
                 "can be read",
-                image.format.substr(0, 60));
+                file::clean_name(image.format.substr(0, 60)));
   TURNSCAN_ASSIGN(DepthImage out, decode_depth_png(image.data.substr(kConfigBytes)));
   if (is_integer_depth(encoding)) {
     std::replace(out.pixels.begin(), out.pixels.end(), kOutsideCrop, kNoReturn);
@@ -175,7 +177,7 @@ Result<ColorImage> ros_color(const ImageMessage& image) {
   const Encoding* encoding = encoding_of(image.encoding);
   if (encoding == nullptr)
     return fail(ErrorCode::kUnsupported, "colour of encoding '{}' cannot be read",
-                image.encoding.substr(0, 40));
+                file::clean_name(image.encoding.substr(0, 40)));
   const bool pairs = encoding->layout == Layout::kYuyv || encoding->layout == Layout::kUyvy;
   if (pairs && image.width % 2 != 0)
     return fail(ErrorCode::kFormat, "an image of encoding '{}' has an odd width; it is damaged",

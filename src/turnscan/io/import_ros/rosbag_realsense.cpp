@@ -39,7 +39,7 @@ std::string device_fact(const Bag& bag, std::string_view stream, std::string_vie
   for (const auto& place : bag.messages(device + "/info")) {
     const auto message = bag.read(place);
     if (!message) continue;
-    const auto fact = rosbag::parse_key_value(message->bytes);
+    const auto fact = rosbag::parse_key_value(message->bytes, message->wire);
     if (fact && fact->key == key) return std::string(fact->value.substr(0, 100));
   }
   return {};
@@ -65,13 +65,13 @@ Result<double> depth_unit(const Bag& bag, std::string_view stream, const ImportO
                           std::vector<std::string>& notes) {
   if (options.depth_unit_m) return *options.depth_unit_m;
   TURNSCAN_ASSIGN(const auto first, first_message(bag, std::string(stream) + std::string(kData)));
-  TURNSCAN_ASSIGN(const auto image, rosbag::parse_image(first.bytes));
+  TURNSCAN_ASSIGN(const auto image, rosbag::parse_image(first.bytes, first.wire));
   if (image.depth_units.value_or(0.0f) > 0.0f) return metres_of(*image.depth_units);
   const std::string sensor(stream.substr(0, stream.rfind('/')));
   for (const char* name : {"/option/Depth_Units/value", "/option/Depth Units/value"}) {
     const auto message = first_message(bag, sensor + name);
     if (!message) continue;
-    TURNSCAN_ASSIGN(const float unit, rosbag::parse_float32(message->bytes));
+    TURNSCAN_ASSIGN(const float unit, rosbag::parse_float32(message->bytes, message->wire));
     return metres_of(unit);
   }
   notes.emplace_back("the file does not say the unit of depth; 1 mm a step, as the cameras come");
@@ -81,7 +81,7 @@ Result<double> depth_unit(const Bag& bag, std::string_view stream, const ImportO
 Result<CameraIntrinsics> camera_of(const Bag& bag, std::string_view stream) {
   TURNSCAN_ASSIGN(const auto message,
                   first_message(bag, std::string(stream) + "/info/camera_info"));
-  TURNSCAN_ASSIGN(const auto info, rosbag::parse_camera_info(message.bytes));
+  TURNSCAN_ASSIGN(const auto info, rosbag::parse_camera_info(message.bytes, message.wire));
   return ros_camera(info, false);
 }
 
@@ -93,7 +93,7 @@ std::optional<std::pair<std::string, Pose>> place_of(const Bag& bag, std::string
     if (!connection.topic.starts_with(begin)) continue;
     const auto message = first_message(bag, connection.topic);
     if (!message) continue;
-    const auto pose = rosbag::parse_transform(message->bytes);
+    const auto pose = rosbag::parse_transform(message->bytes, message->wire);
     if (pose) return std::pair(connection.topic.substr(begin.size()), *pose);
   }
   return std::nullopt;
@@ -109,7 +109,7 @@ void add_color(const Bag& bag, std::string_view depth, BagStreams& out) {
   const std::string topic = stream + std::string(kData);
   const auto first = first_message(bag, topic);
   if (!first) return left_out(first.error().message);
-  const auto image = rosbag::parse_image(first->bytes);
+  const auto image = rosbag::parse_image(first->bytes, first->wire);
   if (!image) return left_out(image.error().message);
   if (!is_color(image->encoding))
     return left_out(fmt::format("its encoding '{}' cannot be read", image->encoding.substr(0, 40)));

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <turnscan/io/file/clean_name.hpp>
 #include <turnscan/io/import/importers_common.hpp>
 #include <turnscan/io/import_ros/ros_camera.hpp>
 #include <turnscan/io/import_ros/ros_images.hpp>
@@ -31,22 +32,23 @@ bool contains(std::string_view text, std::string_view part) {
 std::optional<ImageTopic> look_at(const Bag& bag, const rosbag::Connection& connection) {
   const bool compressed = connection.type == "sensor_msgs/CompressedImage";
   if (!compressed && connection.type != "sensor_msgs/Image") return std::nullopt;
+  if (connection.wire() == rosbag::Wire::kOther) return std::nullopt;
   const auto message = first_message(bag, connection.topic);
   if (!message) return std::nullopt;
   ImageTopic out;
   out.topic = connection.topic;
   out.compressed = compressed;
   if (compressed) {
-    const auto image = rosbag::parse_compressed_image(message->bytes);
+    const auto image = rosbag::parse_compressed_image(message->bytes, message->wire);
     if (!image) return std::nullopt;
     const std::string_view depth = compressed_depth_encoding(image->format);
     out.encoding = depth.empty() ? "jpeg or png" : std::string(depth);
     out.frame_id = std::string(image->header.frame_id);
     return out;
   }
-  const auto image = rosbag::parse_image(message->bytes);
+  const auto image = rosbag::parse_image(message->bytes, message->wire);
   if (!image) return std::nullopt;
-  out.encoding = std::string(image->encoding.substr(0, 40));
+  out.encoding = file::clean_name(image->encoding.substr(0, 40));
   out.frame_id = std::string(image->header.frame_id);
   out.width = image->width;
   out.height = image->height;
@@ -116,7 +118,7 @@ std::string camera_of_topic(const ImageTopic& topic) {
 Result<CameraIntrinsics> camera_of(const Bag& bag, const ImageTopic& topic) {
   const std::string name = camera_of_topic(topic) + "/camera_info";
   TURNSCAN_ASSIGN(const auto message, first_message(bag, name));
-  TURNSCAN_ASSIGN(const auto info, rosbag::parse_camera_info(message.bytes));
+  TURNSCAN_ASSIGN(const auto info, rosbag::parse_camera_info(message.bytes, message.wire));
   return ros_camera(info, contains(topic.topic, "rect") || contains(topic.topic, "registered"));
 }
 
@@ -145,7 +147,7 @@ std::map<std::string, rosbag::TransformStamped> transforms_of(const Bag& bag) {
     for (std::size_t i = 0; i < std::min(places.size(), kMaxMessages); ++i) {
       const auto message = bag.read(places[i]);
       if (!message) continue;
-      const auto transforms = rosbag::parse_transforms(message->bytes);
+      const auto transforms = rosbag::parse_transforms(message->bytes, message->wire);
       if (!transforms) continue;
       for (const auto& transform : *transforms) out.emplace(transform.child, transform);
     }

@@ -125,6 +125,28 @@ Result<fs::path> bop_color(const fs::path& folder, std::uint32_t number) {
   return fs::path();
 }
 
+/// What the masks of the visible parts show, mask_visib/IMAGE_OBJECT.png, is the scene's subject.
+Result<> take_masks(const fs::path& folder, std::vector<ForeignFrame>& frames,
+                    SequenceHeader& header) {
+  const fs::path masks = folder / "mask_visib";
+  std::error_code error;
+  if (!fs::is_directory(masks, error)) return {};
+  TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(masks));
+  std::map<std::string, std::vector<fs::path>> of_image;
+  for (const std::string& name : names)
+    if (name.ends_with(".png")) of_image[name.substr(0, name.find('_'))].push_back(masks / name);
+  for (ForeignFrame& frame : frames) {
+    frame.masks = of_image[fmt::format("{:06}", frame.info.index)];
+    if (frame.masks.empty())
+      return fail_at(masks.string(), ErrorCode::kMissingData,
+                     "image {} has no mask here; move the folder away to take all of its depth",
+                     frame.info.index);
+  }
+  add_note(header,
+           "depth was taken where mask_visib shows an object; move that folder away to take all");
+  return {};
+}
+
 Result<std::vector<ForeignFrame>> list_bop_frames(const fs::path& folder, BopImages& images,
                                                   const ImportOptions& options,
                                                   SequenceHeader& header) {
@@ -163,6 +185,7 @@ OpenResult open_bop(const fs::path& folder, const ImportOptions& options) {
   }
   TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames,
                   list_bop_frames(folder, images, options, header));
+  TURNSCAN_TRY(take_masks(folder, frames, header));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));
   return std::make_unique<ForeignSequence>(std::move(header), frames);

@@ -1,6 +1,9 @@
 #include <bzlib.h>
+#include <zstd.h>
 
 #include <algorithm>
+#include <memory>
+#include <turnscan/io/file/clean_name.hpp>
 #include <turnscan/io/lz4/lz4.hpp>
 #include <turnscan/io/rosbag/chunk_codec.hpp>
 
@@ -53,14 +56,42 @@ Result<std::string> unpack_bz2(std::string_view bytes, std::size_t size) {
   return out;
 }
 
+struct FreeZstd {
+  void operator()(ZSTD_DStream* stream) const { ZSTD_freeDStream(stream); }
+};
+
+Result<std::string> unpack_zstd(std::string_view bytes, std::size_t size) {
+  const std::unique_ptr<ZSTD_DStream, FreeZstd> stream(ZSTD_createDStream());
+  if (stream == nullptr)
+    return fail(ErrorCode::kLibrary, "libzstd cannot begin; there may be too little memory");
+  // What a frame asks for as window is no more than its content needs.
+  constexpr int kWindowLog = 27;
+  (void)ZSTD_DCtx_setParameter(stream.get(), ZSTD_d_windowLogMax, kWindowLog);
+  std::string out;
+  ZSTD_inBuffer from{bytes.data(), bytes.size(), 0};
+  std::size_t made = 0;
+  while (from.pos < from.size || made < size) {
+    if (made == out.size() && made < size) widen(out, size);
+    ZSTD_outBuffer to{out.data(), out.size(), made};
+    const std::size_t before = from.pos;
+    const std::size_t state = ZSTD_decompressStream(stream.get(), &to, &from);
+    if (ZSTD_isError(state)) return damaged(ZSTD_getErrorName(state));
+    if (to.pos == made && from.pos == before) break;  // cut off, or longer than its header says
+    made = to.pos;
+  }
+  if (made != size || from.pos < from.size) return damaged("its length is not that of its header");
+  return out;
+}
+
 }  // namespace
 
 Result<Packing> packing_of(std::string_view name) {
   if (name == "none") return Packing::kNone;
   if (name == "bz2") return Packing::kBz2;
   if (name == "lz4") return Packing::kLz4;
-  return fail(ErrorCode::kUnsupported, "a chunk is packed by '{}'; none, bz2 and lz4 are read",
-              name.substr(0, 40));
+  if (name == "zstd") return Packing::kZstd;
+  return fail(ErrorCode::kUnsupported,
+              "a chunk is packed by '{}'; none, bz2, lz4 and zstd are read", name.substr(0, 40));
 }
 
 Result<std::string> unpack(Packing packing, std::string_view bytes, std::size_t size) {
@@ -69,6 +100,8 @@ Result<std::string> unpack(Packing packing, std::string_view bytes, std::size_t 
       return unpack_bz2(bytes, size);
     case Packing::kLz4:
       return unpack_lz4(bytes, size);
+    case Packing::kZstd:
+      return unpack_zstd(bytes, size);
     case Packing::kNone:
       break;
   }

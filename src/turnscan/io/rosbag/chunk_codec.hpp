@@ -1,6 +1,6 @@
 #pragma once
-// Compression of a chunk of a ROS bag: none, bzip2, or an LZ4 frame (ROS's lz4 is liblz4's frame
-// format: https://github.com/lz4/lz4/blob/dev/doc/lz4_Frame_format.md).
+// Compression of a chunk of a bag: none, bzip2, Zstandard, or an LZ4 frame (ROS's and MCAP's lz4 is
+// liblz4's frame format: https://github.com/lz4/lz4/blob/dev/doc/lz4_Frame_format.md).
 
 #include <cstdint>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace turnscan::rosbag {
 
-enum class Packing : std::uint8_t { kNone, kBz2, kLz4 };
+enum class Packing : std::uint8_t { kNone, kBz2, kLz4, kZstd };
 
 /// The compression named in a chunk's header. Fails with kUnsupported.
 Result<Packing> packing_of(std::string_view name);

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <turnscan/io/file/load_value.hpp>
 #include <turnscan/io/rosbag/ros_messages.hpp>
+#include <turnscan/io/rosbag/wire_fields.hpp>
 
 namespace turnscan::rosbag {
 
@@ -8,53 +8,26 @@ namespace {
 
 constexpr std::size_t kMaxTransforms = 10000;
 
-/// Reads fields sequentially. Beyond the end everything is zero, and good() is false.
-class Fields {
- public:
-  explicit Fields(std::string_view bytes) : rest_(bytes) {}
+std::int64_t time_of(WireFields& fields) {
+  const std::int64_t seconds = fields.number<std::uint32_t>();
+  return seconds * 1000000000 + fields.number<std::uint32_t>();
+}
 
-  template <class T>
-  T number() {
-    const std::string_view bytes = take(sizeof(T));
-    return bytes.size() == sizeof(T) ? file::load<T, false>(bytes.data()) : T();
-  }
-  std::string_view text() { return take(number<std::uint32_t>()); }
-  std::int64_t time_ns() {
-    const std::int64_t seconds = number<std::uint32_t>();
-    return seconds * 1000000000 + number<std::uint32_t>();
-  }
-  Header header() {
-    Header out;
-    out.seq = number<std::uint32_t>();
-    out.stamp_ns = time_ns();
-    out.frame_id = text();
-    return out;
-  }
-  template <std::size_t kCount>
-  std::array<double, kCount> numbers() {
-    std::array<double, kCount> out{};
-    for (double& value : out) value = number<double>();
-    return out;
-  }
-  std::size_t left() const { return rest_.size(); }
-  bool good() const { return good_; }
-  Result<> check(std::string_view what) const {
-    if (good_) return {};
-    return fail(ErrorCode::kFormat, "the message {} is shorter than it claims", what);
-  }
+/// ROS 2 has no number of the frame.
+Header header_of(WireFields& fields) {
+  Header out;
+  if (!fields.cdr()) out.seq = fields.number<std::uint32_t>();
+  out.stamp_ns = time_of(fields);
+  out.frame_id = fields.text();
+  return out;
+}
 
- private:
-  std::string_view take(std::size_t count) {
-    good_ = good_ && count <= rest_.size();
-    if (!good_) return {};
-    const std::string_view out = rest_.substr(0, count);
-    rest_.remove_prefix(count);
-    return out;
-  }
-
-  std::string_view rest_;
-  bool good_ = true;
-};
+template <std::size_t kCount>
+std::array<double, kCount> numbers_of(WireFields& fields) {
+  std::array<double, kCount> out{};
+  for (double& value : out) value = fields.number<double>();
+  return out;
+}
 
 /// Translation, then the quaternion x y z w.
 Result<Pose> pose_of(const std::array<double, 7>& v) {
@@ -63,43 +36,43 @@ Result<Pose> pose_of(const std::array<double, 7>& v) {
 
 }  // namespace
 
-Result<Header> parse_header(std::string_view bytes) {
-  Fields fields(bytes);
-  const Header out = fields.header();
+Result<Header> parse_header(std::string_view bytes, Wire wire) {
+  WireFields fields(bytes, wire);
+  const Header out = header_of(fields);
   TURNSCAN_TRY(fields.check("with a header"));
   return out;
 }
 
-Result<ImageMessage> parse_image(std::string_view bytes) {
-  Fields fields(bytes);
+Result<ImageMessage> parse_image(std::string_view bytes, Wire wire) {
+  WireFields fields(bytes, wire);
   ImageMessage out;
-  out.header = fields.header();
+  out.header = header_of(fields);
   out.height = fields.number<std::uint32_t>();
   out.width = fields.number<std::uint32_t>();
   out.encoding = fields.text();
   out.big_endian = fields.number<std::uint8_t>() != 0;
   out.step = fields.number<std::uint32_t>();
-  out.data = fields.text();
+  out.data = fields.data();
   TURNSCAN_TRY(fields.check("sensor_msgs/Image"));
   if (out.header.frame_id == "1" && fields.left() == sizeof(float))
     out.depth_units = fields.number<float>();
   return out;
 }
 
-Result<CompressedImageMessage> parse_compressed_image(std::string_view bytes) {
-  Fields fields(bytes);
+Result<CompressedImageMessage> parse_compressed_image(std::string_view bytes, Wire wire) {
+  WireFields fields(bytes, wire);
   CompressedImageMessage out;
-  out.header = fields.header();
+  out.header = header_of(fields);
   out.format = fields.text();
-  out.data = fields.text();
+  out.data = fields.data();
   TURNSCAN_TRY(fields.check("sensor_msgs/CompressedImage"));
   return out;
 }
 
-Result<CameraInfoMessage> parse_camera_info(std::string_view bytes) {
-  Fields fields(bytes);
+Result<CameraInfoMessage> parse_camera_info(std::string_view bytes, Wire wire) {
+  WireFields fields(bytes, wire);
   CameraInfoMessage out;
-  out.header = fields.header();
+  out.header = header_of(fields);
   out.height = fields.number<std::uint32_t>();
   out.width = fields.number<std::uint32_t>();
   out.distortion_model = fields.text();
@@ -107,15 +80,15 @@ Result<CameraInfoMessage> parse_camera_info(std::string_view bytes) {
   if (count > fields.left() / sizeof(double))
     return fail(ErrorCode::kFormat, "the message sensor_msgs/CameraInfo is shorter than it claims");
   for (std::uint32_t i = 0; i < count; ++i) out.d.push_back(fields.number<double>());
-  out.k = fields.numbers<9>();
-  (void)fields.numbers<9>();  // R
-  out.p = fields.numbers<12>();
+  out.k = numbers_of<9>(fields);
+  (void)numbers_of<9>(fields);  // R
+  out.p = numbers_of<12>(fields);
   TURNSCAN_TRY(fields.check("sensor_msgs/CameraInfo"));
   return out;
 }
 
-Result<KeyValue> parse_key_value(std::string_view bytes) {
-  Fields fields(bytes);
+Result<KeyValue> parse_key_value(std::string_view bytes, Wire wire) {
+  WireFields fields(bytes, wire);
   KeyValue out;
   out.key = fields.text();
   out.value = fields.text();
@@ -123,29 +96,29 @@ Result<KeyValue> parse_key_value(std::string_view bytes) {
   return out;
 }
 
-Result<float> parse_float32(std::string_view bytes) {
-  Fields fields(bytes);
+Result<float> parse_float32(std::string_view bytes, Wire wire) {
+  WireFields fields(bytes, wire);
   const auto out = fields.number<float>();
   TURNSCAN_TRY(fields.check("std_msgs/Float32"));
   return out;
 }
 
-Result<Pose> parse_transform(std::string_view bytes) {
-  Fields fields(bytes);
-  const auto values = fields.numbers<7>();
+Result<Pose> parse_transform(std::string_view bytes, Wire wire) {
+  WireFields fields(bytes, wire);
+  const auto values = numbers_of<7>(fields);
   TURNSCAN_TRY(fields.check("geometry_msgs/Transform"));
   return pose_of(values);
 }
 
-Result<std::vector<TransformStamped>> parse_transforms(std::string_view bytes) {
-  Fields fields(bytes);
+Result<std::vector<TransformStamped>> parse_transforms(std::string_view bytes, Wire wire) {
+  WireFields fields(bytes, wire);
   const auto count = fields.number<std::uint32_t>();
   std::vector<TransformStamped> out;
   for (std::uint32_t i = 0; i < count && fields.good() && i < kMaxTransforms; ++i) {
     TransformStamped transform;
-    transform.parent = std::string(fields.header().frame_id);
+    transform.parent = std::string(header_of(fields).frame_id);
     transform.child = std::string(fields.text());
-    const auto pose = pose_of(fields.numbers<7>());
+    const auto pose = pose_of(numbers_of<7>(fields));
     if (!fields.good() || !pose) continue;
     transform.T_parent_child = *pose;
     out.push_back(std::move(transform));

@@ -1,8 +1,8 @@
 #pragma once
-// Parsers for the ROS 1 messages that contain images and related data. They follow the definitions
-// in sensor_msgs, geometry_msgs, diagnostic_msgs and tf2_msgs
-// (https://docs.ros.org/en/noetic/api/sensor_msgs/html/msg/Image.html and so on) and ROS's
-// serialisation: fields in order, little-endian, a 32-bit length before text and lists.
+// Parsers for the messages of ROS 1 and 2 that contain images and related data. They follow the
+// definitions in sensor_msgs, geometry_msgs, diagnostic_msgs and tf2_msgs
+// (https://docs.ros.org/en/noetic/api/sensor_msgs/html/msg/Image.html and so on; ROS 2 has the same
+// fields but for the number in the header), serialised as WireFields says.
 // All fail with kFormat if the message is shorter than it claims.
 
 #include <array>
@@ -12,6 +12,7 @@
 #include <string_view>
 #include <turnscan/core/pose.hpp>
 #include <turnscan/core/result.hpp>
+#include <turnscan/io/rosbag/bag_index.hpp>
 #include <vector>
 
 namespace turnscan::rosbag {
@@ -58,15 +59,17 @@ struct TransformStamped {
 };
 
 /// The header of any message that begins with one; the message may be truncated after it.
-Result<Header> parse_header(std::string_view bytes);
-Result<ImageMessage> parse_image(std::string_view bytes);
-Result<CompressedImageMessage> parse_compressed_image(std::string_view bytes);
-Result<CameraInfoMessage> parse_camera_info(std::string_view bytes);
-Result<KeyValue> parse_key_value(std::string_view bytes);
-Result<float> parse_float32(std::string_view bytes);
+Result<Header> parse_header(std::string_view bytes, Wire wire = Wire::kRos1);
+Result<ImageMessage> parse_image(std::string_view bytes, Wire wire = Wire::kRos1);
+Result<CompressedImageMessage> parse_compressed_image(std::string_view bytes,
+                                                      Wire wire = Wire::kRos1);
+Result<CameraInfoMessage> parse_camera_info(std::string_view bytes, Wire wire = Wire::kRos1);
+Result<KeyValue> parse_key_value(std::string_view bytes, Wire wire = Wire::kRos1);
+Result<float> parse_float32(std::string_view bytes, Wire wire = Wire::kRos1);
 /// geometry_msgs/Transform. Also fails if it is not a rigid motion.
-Result<Pose> parse_transform(std::string_view bytes);
+Result<Pose> parse_transform(std::string_view bytes, Wire wire = Wire::kRos1);
 /// tf2_msgs/TFMessage. Transforms that are not rigid motions are skipped.
-Result<std::vector<TransformStamped>> parse_transforms(std::string_view bytes);
+Result<std::vector<TransformStamped>> parse_transforms(std::string_view bytes,
+                                                       Wire wire = Wire::kRos1);
 
 }  // namespace turnscan::rosbag

@@ -124,10 +124,11 @@ Result<Index> read_index(const file::RandomAccessFile& file, const RunContext& c
     fields.take(frame.depth_time_us);
     fields.take(frame.color_bytes);
     fields.take(frame.depth_bytes);
-    frame.data_at = at + kFrameHeaderBytes;
-    const std::uint64_t left = file.size() - frame.data_at;
+    frame.color_at = at + kFrameHeaderBytes;
+    const std::uint64_t left = file.size() - frame.color_at;
     if (frame.color_bytes > left || frame.depth_bytes > left - frame.color_bytes) break;
-    at = frame.data_at + frame.color_bytes + frame.depth_bytes;
+    frame.depth_at = frame.color_at + frame.color_bytes;
+    at = frame.depth_at + frame.depth_bytes;
     index.frames.push_back(frame);
   }
   return index;
@@ -136,7 +137,7 @@ Result<Index> read_index(const file::RandomAccessFile& file, const RunContext& c
 Result<std::vector<std::uint16_t>> read_depth(const file::RandomAccessFile& file,
                                               const Header& header, const FramePlace& frame) {
   const std::string path = file.path().string();
-  const std::uint64_t at = frame.data_at + frame.color_bytes;
+  const std::uint64_t at = frame.depth_at;
   if (header.depth_packing != DepthPacking::kRaw && header.depth_packing != DepthPacking::kZlib)
     return fail_at(path, ErrorCode::kUnsupported,
                    "depth is packed by method {}; raw (0) and zlib (1) are read",

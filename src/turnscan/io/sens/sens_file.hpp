@@ -34,7 +34,7 @@ struct Header {
 struct FramePlace {
   Matrix camera_to_world{};  ///< not finite if tracking was lost
   std::uint64_t color_time_us = 0, depth_time_us = 0;
-  std::uint64_t data_at = 0;  ///< offset of the colour data, which the depth data follow
+  std::uint64_t color_at = 0, depth_at = 0;  ///< offsets of the data
   std::uint64_t color_bytes = 0, depth_bytes = 0;
 };
 

@@ -149,12 +149,18 @@ void look_at_range(std::size_t number, const SensorInfo& sensor, const std::vect
 
 void look_at_table(const SensorInfo& sensor, const TurntableInfo& table,
                    const std::vector<Frame>& frames, Findings& out) {
-  constexpr double kFarOff = 2.0;
   const bool camera = sensor.kind == SensorKind::kDepthCamera;
   if (sensor.viewpoint.parallel) return;
-  const double unit_m = camera ? sensor.depth_unit_m : 1.0;
   const double there_m =
       camera ? table.center_m.z() : (table.center_m - sensor.viewpoint.value).norm();
+  look_at_distance(sensor, there_m, "the turntable is stated", frames, out);
+}
+
+void look_at_distance(const SensorInfo& sensor, double there_m, std::string_view what,
+                      const std::vector<Frame>& frames, Findings& out) {
+  constexpr double kFarOff = 2.0;
+  const bool camera = sensor.kind == SensorKind::kDepthCamera;
+  const double unit_m = camera ? sensor.depth_unit_m : 1.0;
   std::vector<double> distances = distances_of(sensor, frames);
   const double near_m = unit_m * quantile(distances, kNearTenth),
                far_m = unit_m * quantile(distances, 1.0 - kNearTenth);
@@ -163,9 +169,9 @@ void look_at_table(const SensorInfo& sensor, const TurntableInfo& table,
   out.push_back(
       {Plausibility::kImplausible,
        fmt::format(
-           "the turntable is stated {} from sensor 0, and nine tenths of what it "
+           "{} {} from the sensor, and nine tenths of what it "
            "sees lie {} {}: the unit is another one{}, or that place is wrong",
-           format_quantity(there_m, Quantity::kLength), beyond ? "beyond" : "within",
+           what, format_quantity(there_m, Quantity::kLength), beyond ? "beyond" : "within",
            format_quantity(beyond ? near_m : far_m, Quantity::kLength),
            unit_that_fits(camera, near_m, unit_m, {there_m / kFarOff, there_m * kFarOff, ""})),
        ""});

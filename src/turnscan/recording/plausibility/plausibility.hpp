@@ -19,7 +19,7 @@ struct PlausibilityFinding {
   std::string option;  ///< of turnscan import, which settles it; empty: none does
 };
 
-/// Looks at headers, times, angles and at most 8 frames of each sensor. Frames that cannot be read
+/// Looks at headers, times, angles and at most 40 frames of each sensor. Frames that cannot be read
 /// are passed over. Fails only with kCancelled.
 Result<std::vector<PlausibilityFinding>> find_implausible(const FrameSequence& sequence,
                                                           const RunContext& context);

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <turnscan/core/frame_samples.hpp>
 #include <turnscan/core/median.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/recording/plausibility/finders.hpp>
 
 namespace turnscan::plausibility {
@@ -15,6 +18,8 @@ constexpr double kChanging = 0.01, kDeviations = 4.0;
 constexpr double kBeyondNoise = 6.0;
 constexpr double kBorder = 0.1;    ///< of the image's size
 constexpr double kAllMoves = 0.7;  ///< share of the border's pixels
+/// Compared of each kind; each of one kind beats each of the other by chance once in 70 times.
+constexpr std::size_t kPairs = 4;
 
 /// Depth differences of the pixels that both frames have.
 std::vector<int> differences(const DepthImage& a, const DepthImage& b, bool border_only) {
@@ -41,7 +46,74 @@ double share_above(const std::vector<int>& values, double limit) {
   return values.empty() ? 0.0 : double(above) / double(values.size());
 }
 
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// Of n numbers sorted as text: neighbours whose numbers are none, and successive numbers that are
+/// no neighbours.
+std::pair<Pairs, Pairs> text_order(std::size_t n, std::size_t first) {
+  std::vector<std::size_t> number(n), place(n);
+  for (std::size_t i = 0; i < n; ++i) number[i] = i;
+  std::sort(number.begin(), number.end(), [&](std::size_t a, std::size_t b) {
+    return std::to_string(a + first) < std::to_string(b + first);
+  });
+  for (std::size_t i = 0; i < n; ++i) place[number[i]] = i;
+  std::pair<Pairs, Pairs> out;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    if (number[i] + 1 != number[i + 1]) out.first.push_back({i, i + 1});
+    if (place[i] + 1 != place[i + 1]) out.second.push_back({place[i], place[i + 1]});
+  }
+  for (Pairs* pairs : {&out.first, &out.second}) *pairs = evenly_spread(*pairs, kPairs);
+  return out;
+}
+
+/// Shares of the pixels that change from one frame to the other.
+Result<std::vector<double>> changes(const FrameSequence& sequence,
+                                    const std::vector<std::size_t>& usable, const Pairs& pairs,
+                                    double beyond_noise, const RunContext& context) {
+  std::vector<std::size_t> positions;
+  for (const auto& [a, b] : pairs) positions.insert(positions.end(), {usable[a], usable[b]});
+  std::vector<DepthImage> images(positions.size());
+  TURNSCAN_TRY(read_frames(sequence, positions, context,
+                           [&](std::size_t k, Result<Frame> frame) -> Result<> {
+                             if (frame) images[k] = std::move(frame->depth);
+                             return {};
+                           }));
+  std::vector<double> out;
+  for (std::size_t i = 0; i < images.size(); i += 2)
+    out.push_back(share_above(differences(images[i], images[i + 1], false), beyond_noise));
+  return out;
+}
+
 }  // namespace
+
+Result<> look_at_succession(const FrameSequence& sequence, std::uint32_t number,
+                            const std::vector<Frame>& frames, const RunContext& context,
+                            Findings& out) {
+  if (frames.size() < kMinFrames) return {};
+  const std::vector<std::size_t> usable = usable_frames(sequence, {.sensor = number});
+  std::vector<int> noise = differences(frames[0].depth, frames[1].depth, false);
+  if (noise.size() < kMinPixels) return {};
+  const double beyond_noise = kBeyondNoise * std::max(double(median(noise)), 1.0);
+  for (const std::size_t first : {0, 1}) {
+    const auto [neighbours, successive] = text_order(usable.size(), first);
+    if (neighbours.size() < kPairs || successive.size() < kPairs) continue;
+    TURNSCAN_ASSIGN(const auto of_neighbours,
+                    changes(sequence, usable, neighbours, beyond_noise, context));
+    TURNSCAN_ASSIGN(const auto of_successive,
+                    changes(sequence, usable, successive, beyond_noise, context));
+    if (*std::max_element(of_successive.begin(), of_successive.end()) >=
+        *std::min_element(of_neighbours.begin(), of_neighbours.end()))
+      continue;
+    out.push_back({Plausibility::kImplausible,
+                   fmt::format("the images of sensor {} are in the order of numbers that were "
+                               "sorted as text ({}, 10, 11, ..., 2, 20, ...): give each the angle, "
+                               "time or pose of its own number",
+                               number, first == 0 ? "0, 1" : "1"),
+                   ""});
+    break;
+  }
+  return {};
+}
 
 void look_at_motion(std::size_t number, const std::vector<Frame>& frames, Findings& out) {
   if (frames.size() < kMinFrames) return;

@@ -1,6 +1,9 @@
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <turnscan/core/median.hpp>
 #include <turnscan/recording/plausibility/finders.hpp>
 
 namespace turnscan::plausibility {
@@ -57,6 +60,65 @@ void look_at_viewpoint(std::size_t number, const SensorInfo& sensor,
                    "which side it looked, --sensor-direction x,y,z",
                    number),
        "sensor-position"});
+}
+
+void look_at_poses(std::size_t number, const SensorInfo& sensor, const std::vector<Frame>& frames,
+                   Findings& out) {
+  if (sensor.kind != SensorKind::kDepthCamera) return;
+  constexpr double kTurned = 0.5;  // radians: at least so far, they look at something from around
+  constexpr double kOnTheSpot = 0.1;  // of the distance that such a turn spans
+  constexpr double kMeet = 0.25;      // of the distance: how near the lines of sight pass
+  std::vector<Pose> poses;
+  for (const Frame& frame : frames)
+    if (frame.info.T_table_sensor) poses.push_back(*frame.info.T_table_sensor);
+  double turned = 0.0, apart_m = 0.0;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  Vec3d right = Vec3d::Zero();
+  const auto across = [](const Pose& pose) {
+    const Vec3d sight = pose.linear().col(2);
+    return Eigen::Matrix3d(Eigen::Matrix3d::Identity() - sight * sight.transpose());
+  };
+  for (const Pose& pose : poses) {
+    const double cosine = pose.linear().col(2).dot(poses.front().linear().col(2));
+    turned = std::max(turned, std::acos(std::clamp(cosine, -1.0, 1.0)));
+    apart_m = std::max(apart_m, (pose.translation() - poses.front().translation()).norm());
+    sum += across(pose);
+    right += across(pose) * pose.translation();
+  }
+  if (turned < kTurned) return;
+  const Vec3d meeting = sum.ldlt().solve(right);
+  double nearest_m = std::numeric_limits<double>::max(), farthest_m = -nearest_m, off_m = 0.0;
+  for (const Pose& pose : poses) {
+    const double ahead_m = pose.linear().col(2).dot(meeting - pose.translation());
+    nearest_m = std::min(nearest_m, ahead_m);
+    farthest_m = std::max(farthest_m, ahead_m);
+    off_m = std::max(off_m, (across(pose) * (meeting - pose.translation())).norm());
+  }
+  std::vector<double> depths;
+  for (const std::uint16_t raw : frames.front().depth.pixels)
+    if (raw != kNoReturn && raw != kOutsideCrop) depths.push_back(raw * sensor.depth_unit_m);
+  if (depths.empty()) return;
+  const double seen_m = median(depths);
+  const char* what = nullptr;
+  if (apart_m < kOnTheSpot * turned * seen_m)
+    what =
+        "turn on the spot, though the images show an object from around: they are probably the "
+        "inverse of what the layout has";
+  else if (farthest_m < 0.0 && off_m < -kMeet * farthest_m)
+    what =
+        "look away from the place that they go round: their z points backward, or they are the "
+        "inverse of what the layout has";
+  if (what != nullptr) {
+    out.push_back({Plausibility::kImplausible,
+                   fmt::format("the poses of sensor {} {} (--pose-direction, or the axes of its "
+                               "cameras)",
+                               number, what),
+                   ""});
+    return;
+  }
+  if (nearest_m > 0.0 && off_m < kMeet * nearest_m)
+    look_at_distance(sensor, 0.5 * (nearest_m + farthest_m), "the lines of sight of the poses meet",
+                     frames, out);
 }
 
 }  // namespace turnscan::plausibility

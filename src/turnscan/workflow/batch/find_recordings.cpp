@@ -37,7 +37,8 @@ void find_below(const fs::path& folder, const std::string& prefix, int depth,
     const std::string name = prefix + path.filename().string();
     if (!fs::is_directory(path, error)) {
       found.push_back({prefix + path.stem().string(), path.string()});
-    } else if (holds(path, "recording.json")) {
+    } else if (holds(path, "recording.json") ||
+               (holds(path, "metadata.yaml") && is_foreign(path))) {
       found.push_back({name, path.string()});
     } else if (depth < kDeepest && !holds(path, "batch.json")) {
       find_below(path, name + "_", depth + 1, found);
