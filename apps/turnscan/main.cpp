@@ -21,7 +21,7 @@ int run(int argc, char** argv) {
               make_reconstruct_command());
   program.add("evaluate", "Measure how far a mesh is from a reference", make_evaluate_command());
   program.add("report", "Make a report of a scan, as a page in one file", make_report_command());
-  program.add("render", "Draw a picture of meshes", make_render_command());
+  program.add("render", "Draw a picture of meshes or clouds", make_render_command());
   program.add("export", "Write images and their poses for COLMAP, nerfstudio and others",
               make_export_command());
   program.add("devices", "List the sensors that frames can come from", make_devices_command());

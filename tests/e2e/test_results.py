@@ -199,6 +199,8 @@ class Reconstruct(harness.TestCase):
         for stage, method in (("candidates", "volumetric"), ("fitted", "poisson")):
             self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--method", method,
                          "--save-stage", stage, says=[stage, "--method"])
+        self.refused(USAGE, "reconstruct", self.rec, "-o", "m.ply", "--method", "poisson", "--save-stage",
+                     "sub-voxels", says=["sub-voxels", "--candidates"])
         self.assertEqual(self.files(), [])
 
     def test_triangles_that_the_surface_is_not_worth_are_left_out_unless_all_are_asked_for(self):

@@ -151,6 +151,7 @@ TEST(Reconstruct, GivesTheSameBytesForOneAndTwoThreads) {
 TEST(Reconstruct, GivesItsStagesToTheSink) {
   ReconstructOptions points = coarse();
   points.keep_points = true;
+  points.candidates.method = CandidateMethod::kSubVoxel;
   for (const ReconstructOptions& options : {points, ReconstructOptions()}) {
     std::vector<std::string> seen;
     const auto sink = [&](const std::string& stage, const PointCloud& cloud) -> Result<> {
@@ -161,6 +162,39 @@ TEST(Reconstruct, GivesItsStagesToTheSink) {
     ASSERT_TRUE(reconstruct(one_ball(), options, sink, RunContext()));
     EXPECT_EQ(seen, saveable_stages(options.surface.method));
   }
+}
+
+TEST(Reconstruct, AGridInTheBoundsOfThePointsBeginsAtTheirCorner) {
+  ReconstructOptions options = coarse();
+  options.voxels.grid = 20;
+  options.voxels.in_bounds = true;
+  options.keep_points = true;
+  std::map<std::string, PointCloud> saved;
+  const auto sink = [&](const std::string& stage, const PointCloud& cloud) -> Result<> {
+    saved[stage] = cloud;
+    return {};
+  };
+  ASSERT_TRUE(reconstruct(one_ball(), options, sink, RunContext()));
+  const Box box = bounds(saved["merged"].points);
+  const double size = box.size().maxCoeff() / 20;
+  for (const Vec3f& p : saved["voxels"].points) {
+    const Vec3d place = ((p.cast<double>() - box.min) / size).array() - 0.5;
+    ASSERT_LT((place.array() - place.array().round()).abs().maxCoeff(), 1e-3);
+    ASSERT_GE(place.minCoeff(), -1e-3);
+  }
+}
+
+TEST(Reconstruct, WithoutAGapOnlyVoxelsThatTouchAreOneObject) {
+  const auto sequence =
+      balls({Vec3d(0, kRadius, 0), Vec3d(0, 3 * kRadius + 0.012, 0)}, 0.0003, 6000);
+  ReconstructOptions options = coarse();
+  const auto joined = reconstruct(sequence, options, {}, RunContext());
+  ASSERT_TRUE(joined) << joined.error().text();
+  EXPECT_EQ(joined->objects.size(), 1u);  // what floats belongs to what stands
+  options.components.gap_m = 0.0;
+  const auto parted = reconstruct(sequence, options, {}, RunContext());
+  ASSERT_TRUE(parted) << parted.error().text();
+  EXPECT_EQ(parted->objects.size(), 2u);
 }
 
 TEST(Reconstruct, FailsWhenTheSinkFails) {

@@ -175,6 +175,9 @@ class ReconstructCommand : public Command {
                   "--save-stage {}: this method has no such stage; choose another --method, or one "
                   "of {}",
                   stage, fmt::join(made, ", "));
+    if (stage == "sub-voxels" && request_.options.candidates.method != CandidateMethod::kSubVoxel)
+      return fail(ErrorCode::kInvalidOption,
+                  "--save-stage {}: they are not counted; give --candidates sub-voxel", stage);
     files_.stages[stage] = stage_file(text);
     return check_output_file(files_.stages[stage], ".ply");
   }

@@ -1,7 +1,7 @@
 #include <turnscan/io/image/image_io.hpp>
-#include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/simulator/rendering/picture.hpp>
 
+#include <turnscan/workflow/cloud_cubes.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/turning_picture.hpp>
 #include "cli/command_line.hpp"
@@ -14,7 +14,9 @@ namespace {
 class RenderCommand : public Command {
  public:
   void declare(CommandLine& line) override {
-    line.positionals("MESH...", meshes_, "Meshes to show");
+    line.positionals("MESH...", meshes_,
+                     "Meshes to show; or point clouds, as cubes coloured by their counts: the "
+                     "stages voxels and sub-voxels of reconstruct --save-stage as their cells");
     line.option("-o,--out", "PICTURE.png", out_, "Picture to write");
     line.option("--turntable", "FILE.mp4|.png", turning_,
                 "Write an animation of the turning meshes: .png, which browsers show, or .mp4, "
@@ -22,10 +24,14 @@ class RenderCommand : public Command {
     line.flag("--side-by-side", side_by_side_, "Show each mesh in a picture of its own, in a row");
     line.allow_config();
     line.group("picture", "Picture", describe(options_));
+    line.group(
+        "cloud", "Point clouds",
+        OptionTable().number("min-points", min_points_, {0, 1e9},
+                             "Show only cells in which at least so many points were counted"));
     line.group("turn", "Animation, with --turntable", describe(turn_));
-    line.common({"out", "turntable", "side-by-side", "picture-width", "picture-height",
-                 "picture-azimuth", "picture-elevation", "picture-views", "picture-zoom",
-                 "picture-colours", "picture-ground"});
+    line.common({"out", "turntable", "side-by-side", "min-points", "picture-width",
+                 "picture-height", "picture-azimuth", "picture-elevation", "picture-views",
+                 "picture-zoom", "picture-colours", "picture-ground"});
   }
 
   FileRoles files() const override { return {meshes_, {out_, turning_}}; }
@@ -35,7 +41,7 @@ class RenderCommand : public Command {
     session.plan(phases());
     std::vector<TriangleMesh> meshes;
     for (const std::string& path : meshes_) {
-      TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(path, {}, session.context()));
+      TURNSCAN_ASSIGN(TriangleMesh mesh, read_shown(path, min_points_, session.context()));
       meshes.push_back(std::move(mesh));
     }
     if (!out_.empty()) {
@@ -84,6 +90,7 @@ class RenderCommand : public Command {
 
   std::vector<std::string> meshes_;
   std::string out_, turning_;
+  int min_points_ = 0;
   bool side_by_side_ = false;
   PictureOptions options_;
   TurnOptions turn_;

@@ -2,8 +2,11 @@
 #include <turnscan/sensors/scanner_file.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 
+#include <turnscan/io/file/atomic_file.hpp>
+#include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/simulation/coverage_file.hpp>
+#include <turnscan/workflow/simulation/coverage_sweep.hpp>
 #include <turnscan/workflow/simulation/simulate.hpp>
 #include <turnscan/workflow/simulation/simulation_text.hpp>
 #include "cli/command_line.hpp"
@@ -40,6 +43,10 @@ class SimulateCommand : public Command {
     line.option("--coverage", "FILE.ply", request_.coverage,
                 "Write the coverage of the object, and why parts were missed: a coloured mesh, and "
                 "FILE.json beside it. Without --out nothing is recorded");
+    line.option("--sweep", "NAME=FROM..TO/STEP", sweep_,
+                "Print the coverage for each value of a number of the scene, and the best: e.g. "
+                "roll=-45deg..45deg/10deg. Nothing is recorded");
+    line.option("--coverage-plot", "FILE.svg", plot_, "Write the coverage of --sweep as a plot");
     line.flag("--samples", request_.samples,
               "Also write the true value of every sample to RECORDING/truth/samples");
     line.option("--report", "FILE.json", request_.report,
@@ -57,7 +64,7 @@ class SimulateCommand : public Command {
   }
 
   FileRoles files() const override {
-    FileRoles files{{object_, request_.scene.object}, {request_.coverage, request_.report}};
+    FileRoles files{{object_, request_.scene.object}, {request_.coverage, request_.report, plot_}};
     if (request_.overwrite_unfinished) files.removed = request_.recording;
     if (!request_.coverage.empty()) files.outputs.push_back(coverage_json_file(request_));
     for (const std::string& text : scanners_)
@@ -69,6 +76,7 @@ class SimulateCommand : public Command {
   Result<> run(Session& session) override {
     TURNSCAN_TRY(take_arguments());
     TURNSCAN_TRY(check_something_is_made());
+    if (!sweep_.empty()) return sweep(session);
     session.plan(simulate_phases(request_));
     TURNSCAN_ASSIGN(const Simulation made, simulate(request_, session.context()));
     if (!request_.recording.empty()) tell_recording(made, session);
@@ -98,9 +106,27 @@ class SimulateCommand : public Command {
   }
 
   Result<> check_something_is_made() const {
-    if (!request_.recording.empty() || !request_.coverage.empty()) return {};
+    if (sweep_.empty() && !plot_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "--coverage-plot: there is nothing to plot; give --sweep NAME=FROM..TO/STEP");
+    if (!sweep_.empty() && (!request_.recording.empty() || !request_.coverage.empty()))
+      return fail(ErrorCode::kInvalidOption,
+                  "--sweep: it compares scans and makes none; leave out --out and --coverage");
+    if (!sweep_.empty() || !request_.recording.empty() || !request_.coverage.empty()) return {};
     return fail(ErrorCode::kInvalidOption,
                 "--out: missing; give the folder to make, or --coverage FILE.ply");
+  }
+
+  Result<> sweep(Session& session) {
+    TURNSCAN_TRY(check_output_file(plot_, ".svg"));
+    TURNSCAN_ASSIGN(const SweepRange range, parse_sweep_range(sweep_, request_.scene));
+    TURNSCAN_ASSIGN(const auto swept, sweep_coverage(request_.scene, range,
+                                                     request_.coverage_options, session.context()));
+    session.print("{}", sweep_text(range, swept));
+    if (plot_.empty()) return {};
+    TURNSCAN_TRY(write_file_atomically(plot_, sweep_svg(range, swept)));
+    session.print("Wrote {}\n", plot_);
+    return {};
   }
 
   void tell_recording(const Simulation& made, Session& session) const {
@@ -115,7 +141,7 @@ class SimulateCommand : public Command {
     session.print("Wrote {} and {}\n", request_.coverage, coverage_json_file(request_));
   }
 
-  std::string object_, unit_;
+  std::string object_, unit_, sweep_, plot_;
   std::vector<std::string> scanners_, next_passes_;
   SimulateRequest request_;
 };

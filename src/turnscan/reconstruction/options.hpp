@@ -46,8 +46,8 @@ std::vector<std::string> options_of_others(SurfaceMethod method);
 /// The unused options that differ from their defaults.
 std::vector<std::string> unused_options(const ReconstructOptions& options);
 
-/// Stages whose cloud can be saved: merged, voxels, candidates, refined, oriented; fitted
-/// (volumetric only: vertices, weighted by their support).
+/// Stages whose cloud can be saved: merged, sub-voxels (with sub-voxel counting), voxels,
+/// candidates, refined, oriented; fitted (volumetric only: vertices, weighted by their support).
 const std::vector<std::string>& saveable_stages();
 /// The saveable stages of a method.
 std::vector<std::string> saveable_stages(SurfaceMethod method);

@@ -132,6 +132,57 @@ TEST(PointSums, PeaksAreTheSubVoxelsThatMostRaysMeet) {
   EXPECT_GT(double(same), 0.97 * double(m.peaks.size()));
 }
 
+TEST(PointSums, SubVoxelsHoldThePeaksAndEveryLine) {
+  const voxels::MergedCloud merged = testing::noisy_plane(3000, 0.008, 0.001);
+  const testing::Frames frames(merged);
+  voxels::PointSums sums(kVoxel, sub_voxels());
+  ASSERT_TRUE(sums.add(frames.seen()));
+  const PointCloud counted = sums.sub_voxels();
+  double lines = 0.0;
+  std::map<std::array<float, 3>, float> at;
+  for (std::size_t i = 0; i < counted.size(); ++i) {
+    const Vec3f& p = counted.points[i];
+    EXPECT_TRUE(at.emplace(std::array{p.x(), p.y(), p.z()}, counted.weights[i]).second);
+    lines += counted.weights[i];
+  }
+  EXPECT_GT(lines, double(merged.cloud.size()));  // each meets one sub-voxel at least
+  const auto m = sums.collect(1, RunContext());
+  for (const voxels::Peak& peak : m->peaks)
+    for (std::uint32_t k = peak.begin; k < peak.end; ++k) {
+      const Vec3f& p = m->peak_points[k];
+      const float highest = at[{p.x(), p.y(), p.z()}];
+      EXPECT_EQ(highest, (at[{m->peak_points[peak.begin].x(), m->peak_points[peak.begin].y(),
+                              m->peak_points[peak.begin].z()}]));
+      EXPECT_GE(highest, 1.0f);
+    }
+  EXPECT_TRUE(voxels::PointSums(kVoxel, {}).sub_voxels().empty());
+}
+
+TEST(PointSums, AnotherOriginMovesTheGridAndNoPoint) {
+  const Vec3d origin(0.0007, -0.0013, 0.0004);
+  voxels::MergedCloud merged = testing::noisy_sphere(5000, 0.03, 0.001);
+  const auto at_zero = testing::measured(merged, kVoxel);
+  for (Vec3f& p : merged.cloud.points) p += origin.cast<float>();
+  for (Viewpoint& v : merged.viewpoints) v.value += origin;
+  const testing::Frames frames(merged);
+  voxels::PointSums sums(kVoxel, {}, origin);
+  ASSERT_TRUE(sums.add(frames.seen()));
+  const auto moved = sums.collect(1, RunContext());
+  // Rounding of the moved points may put one of them into the cell beside its own.
+  ASSERT_NEAR(double(moved->size()), double(at_zero.size()), 5.0);
+  Vec3d mean = Vec3d::Zero();
+  for (std::size_t i = 0; i < moved->size(); ++i)
+    mean += moved->count(i) * moved->point(i).cast<double>() / double(merged.cloud.size());
+  for (std::size_t i = 0; i < at_zero.size(); ++i)
+    mean -= at_zero.count(i) * at_zero.point(i).cast<double>() / double(merged.cloud.size());
+  EXPECT_LT((mean - origin).norm(), 1e-6);
+  for (const voxels::VoxelGrid::Voxel& voxel : moved->grid.voxels()) {
+    EXPECT_EQ(moved->grid.index_of(moved->grid.center(voxel)), voxel.index);
+    for (std::uint32_t i = voxel.begin; i < voxel.end; ++i)
+      ASSERT_EQ(moved->grid.index_of(moved->point(i).cast<double>()), voxel.index);
+  }
+}
+
 TEST(PointSums, TakeNoMoreMemoryForMoreFrames) {
   const voxels::MergedCloud merged = testing::noisy_plane(20000, 0.02, 0.0);
   const testing::Frames frames(merged);

@@ -43,10 +43,10 @@ TEST(BuiltinObjects, NamesTheKnownOnesWhenAskedForAnother) {
   const auto mesh = builtin_object("teapot");
   ASSERT_FALSE(mesh);
   EXPECT_EQ(mesh.error().code, ErrorCode::kNotFound);
-  EXPECT_NE(
-      mesh.error().message.find(
-          "letter-a, cylinder, labelled-cylinder, doll, scorpion, skull, ball, ball-bar, plate"),
-      std::string::npos);
+  EXPECT_NE(mesh.error().message.find(
+                "letter-a, cylinder, labelled-cylinder, doll, scorpion, skull, action-figure, "
+                "robed-figure, ball, ball-bar, plate"),
+            std::string::npos);
 }
 
 TEST(LetterA, HasTheSizeOfTheWoodenOne) {
@@ -198,6 +198,26 @@ TEST(Skull, HasTwoCheekbonesAndAJawThatStandFree) {
   const TriangleMesh mesh = object("skull");
   EXPECT_EQ(euler_characteristic(mesh), 2 - 2 * 3);
   EXPECT_NEAR(bounds(mesh.vertices).max.y(), Skull::height_m, 5e-4);
+}
+
+TEST(ActionFigure, IsOnePieceWithoutHandlesOnTwoFeetAndAHand) {
+  const TriangleMesh mesh = object("action-figure");
+  EXPECT_EQ(euler_characteristic(mesh), 2);
+  EXPECT_NEAR(bounds(mesh.vertices).max.y(), ActionFigure::height_m, 5e-4);
+  std::array<bool, 3> stands{};
+  for (const Vec3f& p : mesh.vertices) {
+    if (p.y() > 5e-4f) continue;
+    stands[p.z() > 0.04f ? 2 : p.x() > 0.0f ? 1 : 0] = true;
+    ASSERT_GT(std::abs(p.x()), 0.02f);
+  }
+  EXPECT_TRUE(stands[0] && stands[1] && stands[2]);
+}
+
+TEST(RobedFigure, HasAHaloThatStandsFreeAboutTheHead) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  const TriangleMesh mesh = object("robed-figure");
+  EXPECT_EQ(euler_characteristic(mesh), 0);
+  EXPECT_NEAR(bounds(mesh.vertices).max.y(), RobedFigure::height_m, 5e-4);
 }
 
 TEST(Placing, TurnsCounterClockwiseSeenFromAboveThenMoves) {

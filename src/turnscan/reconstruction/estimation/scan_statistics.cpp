@@ -78,10 +78,9 @@ struct OneSide : SortedPoints {
 template <class Items>
 Thickness thickness_at(const Items& items, const voxels::VoxelGrid& grid, const Vec3f& p,
                        double r) {
-  const voxels::VoxelIndex low =
-      ((p.cast<double>().array() - r) / grid.size_m()).floor().cast<int>();
-  const voxels::VoxelIndex high =
-      ((p.cast<double>().array() + r) / grid.size_m()).floor().cast<int>();
+  const Vec3d middle = p.cast<double>(), reach = Vec3d::Constant(r);
+  const voxels::VoxelIndex low = grid.index_of(middle - reach);
+  const voxels::VoxelIndex high = grid.index_of(middle + reach);
   Vec3d sum = Vec3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   std::size_t around = 0;

@@ -27,7 +27,11 @@ OptionTable describe(VoxelOptions& o) {
               "Instead of voxel-size: number of voxels along the longest side that the first "
               "frames show")
       .number("voxel-min-points", o.min_points, {1, 1e9},
-              "Voxels with fewer points are dropped; automatic: a tenth of the typical count");
+              "Voxels with fewer points are dropped; automatic: a tenth of the typical count")
+      .flag(
+          "voxel-grid-in-bounds", o.in_bounds,
+          "Put the grid into the bounding box of all points, which are kept in memory, instead of "
+          "fixing it to the turntable; voxel-grid then divides the longest side of that box");
   return table;
 }
 
@@ -49,9 +53,11 @@ OptionTable describe(ComponentOptions& o) {
   table.text("keep", o.keep, "Objects to keep: all, largest, or a number N for the N largest")
       .number("min-object-share", o.min_share, Quantity::kNone, {0.0, 1.0},
               "Pieces with a smaller share of the largest piece's points are dropped")
-      .number("object-gap", o.gap_m, Quantity::kLength, {0.0, 1.0},
-              "Pieces closer than this are one object; automatic: what the volume separates is "
-              "separate, and with the methods from points by spacing and noise");
+      .number(
+          "object-gap", o.gap_m, Quantity::kLength, {0.0, 1.0},
+          "Pieces closer than this are one object; 0, with the methods from points: voxels that "
+          "touch at a face, edge or corner; automatic: what the volume separates is separate, "
+          "and with the methods from points by spacing and noise");
   return table;
 }
 

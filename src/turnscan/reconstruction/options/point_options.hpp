@@ -26,6 +26,7 @@ struct VoxelOptions {
   std::optional<int> grid;  ///< alternatively: voxels along the longest side of the extent in the
                             ///< first frames
   std::optional<int> min_points;  ///< M: voxels with fewer points are dropped
+  bool in_bounds = false;         ///< the grid fills the bounding box of all points (thesis 3.4.2)
 };
 OptionTable describe(VoxelOptions& options);
 

@@ -19,8 +19,8 @@ struct Neighbourhood {
 
 Neighbourhood collect(const Candidates& c, const voxels::VoxelGrid& grid, std::size_t i, double r) {
   const Vec3d p = c.cloud.points[i].cast<double>();
-  const voxels::VoxelIndex low = ((p.array() - r) / grid.size_m()).floor().cast<int>();
-  const voxels::VoxelIndex high = ((p.array() + r) / grid.size_m()).floor().cast<int>();
+  const voxels::VoxelIndex low = grid.index_of(p - Vec3d::Constant(r));
+  const voxels::VoxelIndex high = grid.index_of(p + Vec3d::Constant(r));
   const Vec3f own = c.towards_sensor[i].normalized();
   Neighbourhood out;
   grid.for_each_in_box(low, high, [&](std::uint32_t v) {

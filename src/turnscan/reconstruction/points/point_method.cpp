@@ -81,6 +81,10 @@ class PointMethod final : public Method {
 
   Result<> add_parts(const std::vector<voxels::FramePart>& parts,
                      const std::vector<Viewpoint>& viewpoints, const RunContext& context);
+  /// Whether nothing can be counted before all points are known.
+  bool whole_cloud_first() const {
+    return options_.merge.cloud_outliers || options_.voxels.in_bounds;
+  }
   Result<> filter_cloud(const RunContext& context);
   Result<> choose_scale(bool whole);
   VoxelScale scale_of(const voxels::MergedCloud& cloud, bool whole) const;
@@ -91,7 +95,7 @@ class PointMethod final : public Method {
   voxels::FrameRecipe recipe_;
   bool profiles_;  ///< frames are lines of points without neighbours across
   bool whole_;     ///< the first frames are all frames
-  bool keep_ = options_.keep_points || options_.merge.cloud_outliers;
+  bool keep_ = options_.keep_points || whole_cloud_first();
   std::uint64_t returns_ = 0;
   voxels::MergedCloud cloud_;  ///< until the scale is chosen, or all of it if it is requested
   std::optional<VoxelScale> scale_;
@@ -139,7 +143,7 @@ Result<> PointMethod::add_parts(const std::vector<voxels::FramePart>& parts,
     if (keep_ || !known) voxels::append(parts[i], viewpoints[i], cloud_);
     frames.push_back({parts[i].cloud.points, parts[i].cloud.colors, viewpoints[i]});
   }
-  if (options_.merge.cloud_outliers) return {};  // all are needed before any can be counted
+  if (whole_cloud_first()) return {};
   if (known) return sums_->add(frames);
   if (cloud_.cloud.size() < kMinPoints) return {};
   TURNSCAN_TRY(context.check());
@@ -149,7 +153,8 @@ Result<> PointMethod::add_parts(const std::vector<voxels::FramePart>& parts,
 /// Chooses the scale from the points so far, and sums them.
 Result<> PointMethod::choose_scale(bool whole) {
   scale_ = scale_of(cloud_, whole);
-  sums_.emplace(scale_->voxel_m, options_.candidates);
+  const Vec3d origin = options_.voxels.in_bounds ? bounds(cloud_.cloud.points).min : Vec3d::Zero();
+  sums_.emplace(scale_->voxel_m, options_.candidates, origin);
   TURNSCAN_TRY(sums_->add(frames_of(cloud_)));
   if (!keep_) cloud_ = voxels::MergedCloud();
   return {};
@@ -211,7 +216,7 @@ Result<> PointMethod::filter_cloud(const RunContext& context) {
   cloud.points.resize(kept);
   cloud.frame.resize(kept);
   if (!cloud.colors.empty()) cloud.colors.resize(kept);
-  return cloud.size() < kMinPoints ? Result<>() : choose_scale(true);
+  return {};
 }
 
 /// Returns the sums. If the scan turned out thicker, or sparser, than its first frames, automatic
@@ -245,6 +250,7 @@ Result<> PointMethod::finish(const StageSink& sink, const RunContext& context,
   {
     const StageTimer timer(out.stages, "merge");
     if (options_.merge.cloud_outliers) TURNSCAN_TRY(filter_cloud(context));
+    if (whole_cloud_first() && cloud_.cloud.size() >= kMinPoints) TURNSCAN_TRY(choose_scale(true));
     out.points = sums_ ? sums_->points() : cloud_.cloud.size();
     if (!sums_)
       return fail(ErrorCode::kTooFewPoints,
@@ -257,6 +263,8 @@ Result<> PointMethod::finish(const StageSink& sink, const RunContext& context,
   {
     const StageTimer timer(out.stages, "voxels");
     TURNSCAN_ASSIGN(measured, measure(context, out));
+    if (sink && options_.candidates.method == CandidateMethod::kSubVoxel)
+      TURNSCAN_TRY(sink("sub-voxels", sums_->sub_voxels()));
     sums_.reset();
   }
   // The platter of a pass is no floor for the surface seen in other passes.
@@ -271,7 +279,7 @@ MethodEntry entry_of(SurfaceMethod method) {
   entry.option_stages = {"crop",    "outliers", "merge", "voxels", "candidates", "components",
                          "normals", "refine",   "base",  "finish", "texture"};
   entry.options = {"method", "repair"};
-  entry.saveable_stages = {"merged", "voxels", "candidates", "refined", "oriented"};
+  entry.saveable_stages = {"merged", "sub-voxels", "voxels", "candidates", "refined", "oriented"};
   entry.create = &PointMethod::create;
   return entry;
 }

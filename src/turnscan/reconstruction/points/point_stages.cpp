@@ -102,8 +102,9 @@ Result<> PointStages::choose_voxels() {
   const double gap =
       length_or(options_.components.gap_m, "object-gap", std::max(3.0 * size, 4.0 * spacing_m_),
                 "the larger of 3 voxels and 4 times the cloud's spacing");
+  // Without a gap only neighbouring voxels are one object: nothing that floats is joined either.
   std::optional<double> floor;
-  if (cylinder_) floor = cylinder_->margin_m + std::max(3.0 * size, gap);
+  if (cylinder_ && gap > 0.0) floor = cylinder_->margin_m + std::max(3.0 * size, gap);
   TURNSCAN_ASSIGN(components_, find_components(grid_, options_.components,
                                                static_cast<int>(std::lround(gap / size)), floor));
   context_.advance();

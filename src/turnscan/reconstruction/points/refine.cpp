@@ -84,8 +84,8 @@ class Projector {
     const double size = grid_.size_m();
     const Vec3d half = height * site.n.cwiseAbs() +
                        reach_ * (Vec3d::Ones() - site.n.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
-    const voxels::VoxelIndex low = ((site.p - half) / size).array().floor().cast<int>();
-    const voxels::VoxelIndex high = ((site.p + half) / size).array().floor().cast<int>();
+    const voxels::VoxelIndex low = grid_.index_of(site.p - half);
+    const voxels::VoxelIndex high = grid_.index_of(site.p + half);
     const double far = reach_ + 0.87 * size, far2 = far * far;
     refinement::MomentLanes lanes{};
     const refinement::RefineKernel& kernel = refinement::RefineKernels::current();
@@ -229,7 +229,7 @@ std::vector<Site> starting_sites(const voxels::VoxelGrid& grid, const Candidates
     for (const double side : {-1.0, 1.0}) {
       const Vec3d q =
           grid.center(grid.voxels()[candidates.voxel[i]]) + side * grid.size_m() * site.n;
-      const auto next = grid.find((q / grid.size_m()).array().floor().cast<int>());
+      const auto next = grid.find(grid.index_of(q));
       if (next >= 0 && grid.voxels()[std::size_t(next)].count() > own) site.lost = true;
     }
   });

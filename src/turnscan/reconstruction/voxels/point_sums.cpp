@@ -69,10 +69,10 @@ VoxelIndex octant(std::size_t k) { return {int(k & 1), int((k >> 1) & 1), int((k
 std::size_t part_of(std::uint64_t brick) { return std::size_t(mix64(brick) >> 58); }
 
 /// Positions are floored by truncation: shifted by kOffset they are positive.
-bool to_entry(const Vec3f& p, const Vec3f& towards, double scale, Entry& entry) {
+bool to_entry(const Vec3d& p, const Vec3f& towards, double scale, Entry& entry) {
   std::array<std::int64_t, 3> cell{};
   for (std::size_t a = 0; a < 3; ++a) {
-    const double shifted = double(p[int(a)]) * scale + kOffset;
+    const double shifted = p[int(a)] * scale + kOffset;
     if (!(shifted >= 0.0) || !(shifted < 2.0 * kOffset)) return false;
     const auto place = static_cast<std::int64_t>(shifted);
     cell[a] = place >> kPlaceBits;
@@ -89,7 +89,7 @@ bool to_entry(const Vec3f& p, const Vec3f& towards, double scale, Entry& entry) 
   return true;
 }
 
-Sorted sort(const PointsSeen& frame, double scale) {
+Sorted sort(const PointsSeen& frame, const Vec3d& origin_m, double scale) {
   Sorted out;
   const std::size_t n = frame.points.size();
   std::vector<Entry> entries(n);
@@ -102,7 +102,7 @@ Sorted sort(const PointsSeen& frame, double scale) {
     const Vec3f towards = frame.viewpoint.parallel ? view
                           : squared > 0.0f         ? Vec3f(d * (1.0f / std::sqrt(squared)))
                                                    : Vec3f(Vec3f::Zero());
-    if (!to_entry(p, towards, scale, entries[i])) {
+    if (!to_entry(p.cast<double>() - origin_m, towards, scale, entries[i])) {
       out.outside = true;
       return out;
     }
@@ -172,7 +172,8 @@ class PointSums::Part {
   }
 
   /// Writes the cells of a voxel starting at position `at`.
-  void write(const VoxelRef& ref, double cell_m, std::size_t at, MeasuredCells& out) const {
+  void write(const VoxelRef& ref, double cell_m, const Vec3d& origin_m, std::size_t at,
+             MeasuredCells& out) const {
     for (std::size_t c = 0; c < kCells; ++c) {
       const std::size_t k = ref.voxel * kCells + c;
       const CellSums& cell = bricks_[ref.brick][k];
@@ -182,7 +183,7 @@ class PointSums::Part {
       for (std::size_t a = 0; a < 3; ++a) {
         // Positions were floored: adds half a step on average.
         const double place = (cell.place[a] / n + 0.5) / double(kPlaces) + 0.5;
-        out.columns[a][at] = static_cast<float>((low[int(a)] + place) * cell_m);
+        out.columns[a][at] = static_cast<float>((low[int(a)] + place) * cell_m + origin_m[int(a)]);
         out.columns[3 + a][at] = static_cast<float>(cell.towards[a] / n / double(kDirections));
       }
       out.columns[6][at] = static_cast<float>(cell.count);
@@ -254,8 +255,8 @@ class PointSums::Part {
   std::deque<std::vector<std::uint32_t>> sub_counts_;
 };
 
-PointSums::PointSums(double voxel_m, const CandidateOptions& options)
-    : voxel_m_(voxel_m), options_(options) {
+PointSums::PointSums(double voxel_m, const CandidateOptions& options, const Vec3d& origin_m)
+    : voxel_m_(voxel_m), origin_m_(origin_m), options_(options) {
   if (!(voxel_m > 0.0)) throw std::invalid_argument("PointSums: voxel_m must be positive");
   const int s = options.method == CandidateMethod::kSubVoxel ? options.subdivisions : 0;
   for (std::size_t k = 0; k < kParts; ++k)
@@ -268,7 +269,8 @@ PointSums::~PointSums() = default;
 Result<> PointSums::add(std::span<const PointsSeen> frames) {
   const double scale = 2.0 * double(kPlaces) / voxel_m_;
   std::vector<Sorted> sorted(frames.size());
-  parallel_for(frames.size(), 1, [&](std::size_t i) { sorted[i] = sort(frames[i], scale); });
+  parallel_for(frames.size(), 1,
+               [&](std::size_t i) { sorted[i] = sort(frames[i], origin_m_, scale); });
   for (const Sorted& frame : sorted) {
     if (frame.outside)
       return fail(ErrorCode::kInvalidOption,
@@ -349,10 +351,16 @@ std::vector<VoxelGrid::Voxel> join(const std::vector<VoxelRef>& refs, int joined
   return voxels;
 }
 
+/// Centre of the i-th of a voxel's s^3 sub-voxels, in voxels from the grid's origin.
+Vec3d sub_voxel_center(const VoxelRef& ref, int i, int s) {
+  const Vec3d cell(i % s + 0.5, i / s % s + 0.5, i / s / s + 0.5);
+  return ref.index.cast<double>() + cell / s;
+}
+
 /// The sub-voxels with the highest count in these voxels, which become one.
 template <class Counts>
 void add_peaks(std::span<const VoxelRef> refs, const Counts& counts, int s, double voxel_m,
-               MeasuredCells& out) {
+               const Vec3d& origin_m, MeasuredCells& out) {
   const int cells = s * s * s;
   std::uint32_t highest = 1;
   for (const VoxelRef& ref : refs)
@@ -362,8 +370,7 @@ void add_peaks(std::span<const VoxelRef> refs, const Counts& counts, int s, doub
     const std::uint32_t* count = counts(ref);
     for (int i = 0; i < cells; ++i) {
       if (count[i] != highest) continue;
-      const Vec3d cell(i % s + 0.5, i / s % s + 0.5, i / s / s + 0.5);
-      out.peak_points.push_back(((ref.index.cast<double>() + cell / s) * voxel_m).cast<float>());
+      out.peak_points.push_back((sub_voxel_center(ref, i, s) * voxel_m + origin_m).cast<float>());
     }
   }
   peak.end = std::uint32_t(out.peak_points.size());
@@ -388,7 +395,7 @@ Result<MeasuredCells> PointSums::collect(int joined, const RunContext& context) 
   parallel_for(voxels.size(), 1024, [&](std::size_t v) {
     std::size_t at = voxels[v].begin;
     for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) {
-      parts_[refs[i].part]->write(refs[i], 0.5 * voxel_m_, at, out);
+      parts_[refs[i].part]->write(refs[i], 0.5 * voxel_m_, origin_m_, at, out);
       at += refs[i].cells;
     }
   });
@@ -397,9 +404,28 @@ Result<MeasuredCells> PointSums::collect(int joined, const RunContext& context) 
     const auto counts = [&](const VoxelRef& ref) { return parts_[ref.part]->sub_counts(ref); };
     for (std::size_t v = 0; v + 1 < first.size(); ++v)
       add_peaks(std::span(refs).subspan(first[v], first[v + 1] - first[v]), counts,
-                options_.subdivisions, voxel_m_, out);
+                options_.subdivisions, voxel_m_, origin_m_, out);
   }
-  TURNSCAN_ASSIGN(out.grid, VoxelGrid::of_counted(std::move(voxels), joined * voxel_m_));
+  TURNSCAN_ASSIGN(out.grid, VoxelGrid::of_counted(std::move(voxels), joined * voxel_m_, origin_m_));
+  return out;
+}
+
+PointCloud PointSums::sub_voxels() const {
+  PointCloud out;
+  if (options_.method != CandidateMethod::kSubVoxel) return out;
+  const int s = options_.subdivisions;
+  for (const auto& part : parts_) {
+    std::vector<VoxelRef> refs;
+    part->list(0, refs);
+    for (const VoxelRef& ref : refs) {
+      const std::uint32_t* counts = part->sub_counts(ref);
+      for (int i = 0; i < s * s * s; ++i) {
+        if (counts[i] == 0) continue;
+        out.points.push_back((sub_voxel_center(ref, i, s) * voxel_m_ + origin_m_).cast<float>());
+        out.weights.push_back(float(counts[i]));
+      }
+    }
+  }
   return out;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Sums the points of frames as they arrive, in cells that are fixed to the table frame: memory does
-// not grow with the number of points.
+// Sums the points of frames as they arrive, in cells that are fixed beforehand: memory does not
+// grow with the number of points.
 
 #include <memory>
 #include <span>
@@ -24,8 +24,8 @@ struct PointsSeen {
 /// neither on the order of frames nor on their grouping nor on the number of threads.
 class PointSums {
  public:
-  /// Voxel edge in metres, > 0.
-  PointSums(double voxel_m, const CandidateOptions& options);
+  /// voxel_m: edge in metres, > 0. origin_m: corner of a voxel, table frame.
+  PointSums(double voxel_m, const CandidateOptions& options, const Vec3d& origin_m = Vec3d::Zero());
   PointSums(PointSums&&) noexcept;
   PointSums& operator=(PointSums&&) noexcept;
   ~PointSums();
@@ -43,9 +43,14 @@ class PointSums {
   /// kTooFewPoints if nothing was added, with kInvalidOption as VoxelGrid::build does, kCancelled.
   Result<MeasuredCells> collect(int joined, const RunContext& context) const;
 
+  /// Centres of the sub-voxels that lines crossed; weights: how many. Empty unless they are
+  /// counted.
+  PointCloud sub_voxels() const;
+
  private:
   class Part;
   double voxel_m_;
+  Vec3d origin_m_;
   CandidateOptions options_;
   bool colored_ = true;
   std::uint64_t points_ = 0;

@@ -75,10 +75,12 @@ Result<VoxelGrid> VoxelGrid::build(const std::vector<Vec3f>& points, double size
   return grid;
 }
 
-Result<VoxelGrid> VoxelGrid::of_counted(std::vector<Voxel> voxels, double size_m) {
+Result<VoxelGrid> VoxelGrid::of_counted(std::vector<Voxel> voxels, double size_m,
+                                        const Vec3d& origin_m) {
   if (voxels.empty()) return fail(ErrorCode::kTooFewPoints, "voxels: there are no points to count");
   VoxelGrid grid;
   grid.size_m_ = size_m;
+  grid.origin_m_ = origin_m;
   VoxelIndex high = voxels.front().index;
   grid.low_ = high;
   for (const Voxel& voxel : voxels) {

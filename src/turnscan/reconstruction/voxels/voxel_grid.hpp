@@ -9,7 +9,7 @@ namespace turnscan::voxels {
 using VoxelIndex = Eigen::Vector3i;
 
 /// The occupied voxels of a cloud, ordered by (z, y, x). Voxel i covers index * size to (index + 1)
-/// * size on each axis: aligned to the frame of the points, not to their bounds.
+/// * size on each axis from the grid's origin, which is that of the points' frame unless stated.
 class VoxelGrid {
  public:
   struct Voxel {
@@ -28,13 +28,18 @@ class VoxelGrid {
 
   /// A grid of voxels that were counted elsewhere, ordered by (z, y, x); begin and end are kept,
   /// order() is empty. Fails as build does.
-  static Result<VoxelGrid> of_counted(std::vector<Voxel> voxels, double size_m);
+  static Result<VoxelGrid> of_counted(std::vector<Voxel> voxels, double size_m,
+                                      const Vec3d& origin_m = Vec3d::Zero());
 
   double size_m() const { return size_m_; }
   const std::vector<Voxel>& voxels() const { return voxels_; }
   const std::vector<std::uint32_t>& order() const { return order_; }
   Vec3d center(const Voxel& voxel) const {
-    return (voxel.index.cast<double>() + Vec3d::Constant(0.5)) * size_m_;
+    return (voxel.index.cast<double>() + Vec3d::Constant(0.5)) * size_m_ + origin_m_;
+  }
+  /// The voxel that contains a place, occupied or not.
+  VoxelIndex index_of(const Vec3d& p) const {
+    return ((p - origin_m_) / size_m_).array().floor().cast<int>();
   }
   /// Position in voxels() or -1.
   std::int64_t find(const VoxelIndex& index) const;
@@ -51,6 +56,7 @@ class VoxelGrid {
   void index_rows();
 
   double size_m_ = 0.0;
+  Vec3d origin_m_ = Vec3d::Zero();
   VoxelIndex low_ = VoxelIndex::Zero();
   VoxelIndex extent_ = VoxelIndex::Zero();
   std::vector<Voxel> voxels_;

@@ -106,7 +106,7 @@ TriangleMesh make_cylinder() {
 }
 
 using Maker = Result<TriangleMesh> (*)(const RunContext&);
-constexpr std::array<std::pair<std::string_view, Maker>, 9> kObjects{
+constexpr std::array<std::pair<std::string_view, Maker>, 11> kObjects{
     {{"letter-a", [](const RunContext&) -> Result<TriangleMesh> { return make_letter(); }},
      {"cylinder", [](const RunContext&) -> Result<TriangleMesh> { return make_cylinder(); }},
      {"labelled-cylinder",
@@ -116,6 +116,8 @@ constexpr std::array<std::pair<std::string_view, Maker>, 9> kObjects{
      {"doll", objects::make_doll},
      {"scorpion", objects::make_scorpion},
      {"skull", objects::make_skull},
+     {"action-figure", objects::make_action_figure},
+     {"robed-figure", objects::make_robed_figure},
      {"ball", [](const RunContext&) -> Result<TriangleMesh> { return objects::make_ball(); }},
      {"ball-bar",
       [](const RunContext&) -> Result<TriangleMesh> { return objects::make_ball_bar(); }},

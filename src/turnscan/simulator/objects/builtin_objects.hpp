@@ -63,6 +63,25 @@ struct Skull {
   static constexpr double cell_m = 0.0008;           ///< as the doll's
 };
 
+/// A crouched figure on two feet and one hand, the other arm raised: thin limbs, as the action
+/// figure of Carruesco Llorens 2016.
+struct ActionFigure {
+  static constexpr double height_m = 0.147;             ///< platter to the top of the head
+  static constexpr double thigh_thickness_m = 0.018;    ///< diameter at the hip
+  static constexpr double forearm_thickness_m = 0.009;  ///< diameter at the wrist
+  static constexpr double cell_m = 0.0008;              ///< as the doll's
+};
+
+/// A figure in a robe with folds, hands folded, with a thin halo that stands free behind the head,
+/// as the virgin of Carruesco Llorens 2016.
+struct RobedFigure {
+  static constexpr double height_m = 0.296;          ///< platter to the top of the halo
+  static constexpr double halo_diameter_m = 0.072;   ///< outer
+  static constexpr double halo_thickness_m = 0.006;  ///< diameter of its ring
+  static constexpr double fold_height_m = 0.0022;    ///< amplitude at the hem
+  static constexpr double cell_m = 0.001;            ///< of the grid on which its surface is meshed
+};
+
 /// A ball that touches the platter in a point. Vertices of all gauges lie on the true surface;
 /// facets are inside balls by at most 4 um.
 struct GaugeBall {
@@ -83,15 +102,15 @@ struct GaugePlate {
   static constexpr double thickness_m = 0.012;
 };
 
-/// "letter-a", "cylinder", "labelled-cylinder", "doll", "scorpion", "skull", and the gauges "ball",
-/// "ball-bar", "plate".
+/// "letter-a", "cylinder", "labelled-cylinder", "doll", "scorpion", "skull", "action-figure",
+/// "robed-figure", and the gauges "ball", "ball-bar", "plate".
 std::vector<std::string> builtin_object_names();
 
 /// Whether it is an artefact to test a rig with (measure_artefact()), not an object.
 bool is_gauge(std::string_view name);
 
 /// The object of that name, with vertex colours or, the labelled cylinder, a texture. Takes up to
-/// about a second of a processor (doll, scorpion and skull). An unknown name fails with kNotFound
+/// about a second of a processor (the figures and the skull). An unknown name fails with kNotFound
 /// and lists the known ones; fails with kCancelled.
 Result<TriangleMesh> builtin_object(std::string_view name, const RunContext& context = {});
 

@@ -12,6 +12,8 @@ namespace turnscan::objects {
 Result<TriangleMesh> make_doll(const RunContext& context);
 Result<TriangleMesh> make_scorpion(const RunContext& context);
 Result<TriangleMesh> make_skull(const RunContext& context);
+Result<TriangleMesh> make_action_figure(const RunContext& context);
+Result<TriangleMesh> make_robed_figure(const RunContext& context);
 
 /// The artefacts to test a rig with.
 TriangleMesh make_ball();

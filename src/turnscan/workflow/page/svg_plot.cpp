@@ -50,11 +50,12 @@ class Drawing {
     y_ = {y_ticks_.front(), y_ticks_.back()};
   }
 
-  std::string text(const std::string& id) const {
+  std::string text(const std::string& id, const std::string& attributes) const {
     std::string svg = fmt::format(
-        "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-labelledby=\"{}-t {}-d\">"
+        "<svg{} viewBox=\"0 0 {} {}\" role=\"img\" aria-labelledby=\"{}-t {}-d\">"
         "<title id=\"{}-t\">{}</title><desc id=\"{}-d\">{}</desc>\n",
-        kWidth, kHeight, id, id, id, escaped(plot_.title), id, escaped(plot_.description));
+        attributes, kWidth, kHeight, id, id, id, escaped(plot_.title), id,
+        escaped(plot_.description));
     svg += axes();
     for (std::size_t s = 0; s < plot_.series.size(); ++s)
       svg += plot_.kind == Plot::Kind::kBars ? bars(plot_.series[s]) : line(s);
@@ -181,7 +182,11 @@ std::vector<double> ticks(double low, double high, int count) {
   return values;
 }
 
-std::string svg_figure(const Plot& plot, const std::string& id) {
+namespace {
+
+/// The drawing within the extent of its values; empty if there is nothing to draw. attributes: of
+/// its svg element.
+std::string drawn(const Plot& plot, const std::string& id, const std::string& attributes) {
   Extent x, y;
   for (const double v : plot.x) x.add(v);
   for (const Series& series : plot.series)
@@ -195,10 +200,22 @@ std::string svg_figure(const Plot& plot, const std::string& id) {
   }
   x.widen();
   y.widen();
+  return Drawing(plot, x, y).text(id, attributes);
+}
+
+}  // namespace
+
+std::string svg_figure(const Plot& plot, const std::string& id) {
+  const std::string drawing = drawn(plot, id, "");
+  if (drawing.empty()) return "";
   return fmt::format(
       "<figure class=\"plot\">\n<figcaption>{}</figcaption>\n{}{}<p>{}</p>\n{}</figure>\n",
-      escaped(plot.title), Drawing(plot, x, y).text(id), key(plot), escaped(plot.description),
-      table(plot));
+      escaped(plot.title), drawing, key(plot), escaped(plot.description), table(plot));
+}
+
+std::string svg_file(const Plot& plot) {
+  return drawn(plot, "plot",
+               " xmlns=\"http://www.w3.org/2000/svg\" font-family=\"sans-serif\" font-size=\"12\"");
 }
 
 }  // namespace turnscan::page

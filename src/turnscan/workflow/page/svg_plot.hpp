@@ -29,4 +29,7 @@ std::vector<double> ticks(double low, double high, int count);
 /// draw. Names and labels are escaped.
 std::string svg_figure(const Plot& plot, const std::string& id);
 
+/// The drawing alone, as a file. Empty if there is nothing to draw.
+std::string svg_file(const Plot& plot);
+
 }  // namespace turnscan::page
