@@ -214,8 +214,8 @@ TEST_F(Around, TheManualIsItsSiteWhereThatIsInstalled) {
   EXPECT_TRUE(site_file().isEmpty());
   const QTemporaryDir prefix;
   const QString page = prefix.filePath("share/doc/turnscan/html/index.html");
-  for (const char* folder : {"share/turnscan/scanners", "share/doc/turnscan/html"})
-    ASSERT_TRUE(QDir().mkpath(prefix.filePath(folder)));
+  for (const char* part : {"share/turnscan/scanners", "share/doc/turnscan/html"})
+    ASSERT_TRUE(QDir().mkpath(prefix.filePath(part)));
   ASSERT_TRUE(QFile(page).open(QIODevice::WriteOnly));
   const QByteArray data = qgetenv("TURNSCAN_DATA");
   qputenv("TURNSCAN_DATA", prefix.filePath("share/turnscan").toUtf8());
