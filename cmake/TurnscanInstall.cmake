@@ -23,3 +23,13 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md"
               "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/CONTRIBUTING.md"
         DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+# The manual as a site that can be searched: what makes packages builds this target before. An
+# installation without it has the pages alone.
+find_program(TURNSCAN_MKDOCS mkdocs)
+mark_as_advanced(TURNSCAN_MKDOCS)
+if(TURNSCAN_MKDOCS)
+  add_custom_target(turnscan_site
+    COMMAND "${PROJECT_SOURCE_DIR}/scripts/docs" "${PROJECT_BINARY_DIR}/site" VERBATIM)
+endif()
+install(DIRECTORY "${PROJECT_BINARY_DIR}/site/" DESTINATION "${CMAKE_INSTALL_DOCDIR}/html" OPTIONAL)

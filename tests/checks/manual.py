@@ -10,6 +10,7 @@ TOP_PAGES = {"docs/index.md", "docs/faq.md", "docs/glossary.md"}
 MOST_WORDS = 1500
 MOST_LINES_TOGETHER = 3500
 SITE = "mkdocs.yml"
+QUOTED = re.compile(r"\bdocs/[\w-]+/[\w/-]+\.md\b")
 PICTURE = re.compile(r"!\[[^\]]*\]\(([^)\s]+)\)")
 
 
@@ -63,4 +64,14 @@ def pictures_that_no_page_shows(tree):
             yield path, 1, "no page shows it"
 
 
-RULES = [pages_of_no_kind, long_pages, pages_outside_the_site, pictures_that_no_page_shows]
+def quoted_pages_that_are_not_there(tree):
+    """Texts of the programs name pages for more: help, errors, verdicts."""
+    for path in tree.code("src/", "apps/", "plugins/"):
+        for number, line in enumerate(tree.lines(path), 1):
+            for page in QUOTED.findall(line):
+                if page not in tree.known:
+                    yield path, number, f"{page} is not there"
+
+
+RULES = [pages_of_no_kind, long_pages, pages_outside_the_site, pictures_that_no_page_shows,
+         quoted_pages_that_are_not_there]

@@ -44,6 +44,11 @@ class Rules(RuleTest):
         self.quiet(rule, "docs/images/a.png", "", files={"docs/how-to/a.md": "![a](../images/a.png)\n"})
         self.speaks(rule, "docs/images/a.png", "", files={"docs/how-to/a.md": "[a](../images/a.png)\n"})
 
+    def test_pages_that_programs_quote_are_there(self):
+        rule, page = manual.quoted_pages_that_are_not_there, {"docs/how-to/a.md": ""}
+        self.quiet(rule, "apps/a.cpp", 'say("see docs/how-to/a.md");\n', files=page)
+        self.speaks(rule, "src/a.cpp", '\nsay("see docs/how-to/b.md.");\n', 2, files=page)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -2,6 +2,7 @@
 intrinsics say of the mesh's vertices is what the depth images and masks show. An export that is imported
 again reconstructs to the same object."""
 
+import functools
 import json
 import math
 import struct
@@ -128,13 +129,18 @@ def tum_views(folder):
 VIEWS = {"colmap": colmap_views, "nerfstudio": nerfstudio_views, "bop": bop_views, "tum": tum_views}
 
 
+@functools.lru_cache(maxsize=None)
+def vertices_of(name):
+    truth = recordings.folder_of(name) / "truth/object.ply"
+    return [tuple(v[k] for k in "xyz") for v in read_ply(truth)["vertex"]]
+
+
 class Export(harness.TestCase):
     def export(self, name, layout, *options):
         rec = recordings.folder_of(name)
         out = self.ok("export", rec, "--to", layout, "--mesh", rec / "truth/object.ply", "-o", layout,
                       *options).stdout
-        mesh = [tuple(v[k] for k in "xyz") for v in read_ply(rec / "truth/object.ply")["vertex"]]
-        return out, mesh
+        return out, vertices_of(name)
 
     def check_depth(self, views, mesh, least):
         """Visible vertices lie where depth was measured, and none lies before it."""
@@ -171,10 +177,10 @@ class Export(harness.TestCase):
 
     def test_every_layout_shows_the_mesh_where_depth_and_masks_do(self):
         for layout in LAYOUTS:
-            _, mesh = self.export("colour-doll", layout)
+            _, mesh = self.export("colour-doll", layout, "--every", 3)
             folder = self.dir / layout
             views = list(VIEWS[layout](folder))
-            self.assertEqual(len(views), 10)
+            self.assertEqual(len(views), 4)
             self.check_masks(views, mesh)
             if layout == "colmap":
                 views = list(colmap_views(folder, "sparse_depth"))

@@ -1,10 +1,11 @@
 """Version, help, the reference page, and every way to use the command line wrongly."""
 
 import re
+import shutil
 import subprocess
 
 import harness
-from harness import FAILED, ROOT, USAGE, run
+from harness import BIN, FAILED, ROOT, USAGE, run
 
 COMMANDS = ["import", "info", "calibrate", "reconstruct", "evaluate", "render", "export", "simulate", "demo",
             "batch", "reference"]
@@ -25,6 +26,17 @@ class Help(harness.TestCase):
         out = self.ok("--help").stdout
         for command in COMMANDS:
             self.assertRegex(out, rf"(?m)^  {command} ")
+
+    def test_help_says_where_the_manual_is(self):
+        self.assertIn("The manual is docs/index.md, in the sources.\n", self.ok("--help").stdout)
+        self.assertIn("The manual has more in docs/how-to/calibrate.md.", self.ok("calibrate", "--help").stdout)
+        program, page = (self.dir / name for name in ("bin/turnscan", "share/doc/turnscan/html/index.html"))
+        for made in (program, page):
+            made.parent.mkdir(parents=True)
+        shutil.copy(BIN, program)
+        page.touch()
+        told = subprocess.run([program, "--help"], text=True, capture_output=True, check=True).stdout
+        self.assertIn(f"The manual is {page}.\n", told)
 
     def test_every_command_has_help_with_defaults_and_ranges(self):
         for command in COMMANDS:

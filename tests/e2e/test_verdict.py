@@ -44,14 +44,14 @@ class Verdict(harness.TestCase):
         self.assertNotEqual(verdict["colour"], "red")
         self.assertIn("can be printed", self.text(verdict, "mesh"))
         agreement = self.text(verdict, "agreement")
-        for what in ("half of the frames", "neighbouring frames differ", "frames a turn apart"):
+        for what in ("Half of the frames", "Neighbouring frames differ", "Frames a turn apart"):
             self.assertIn(what, agreement)
-        self.assertIn("when it was made is not known", self.text(verdict, "calibration"))
-        self.assertIn("the platter in it lies", self.text(verdict, "calibration"))
+        self.assertIn("When the calibration was made is not known.", self.text(verdict, "calibration"))
+        self.assertIn("The platter in it lies", self.text(verdict, "calibration"))
         self.assertRegex(self.text(verdict, "invented"),
-                         r"cm2 \(\d+ %\) of the surface was not measured.*of base stood on the "
-                         r"platter.*the largest holes: [\d.]+ cm2 (underneath|on )")
-        self.assertRegex(self.text(verdict, "help"), r"a second pass would show \d+ cm2 more: ")
+                         r"cm2 \(\d+ %\) of the surface was not measured.*is the base, which "
+                         r"stood on the platter.*The largest holes: [\d.]+ cm2 (underneath|on )")
+        self.assertRegex(self.text(verdict, "help"), r"A second pass would show \d+ cm2 more: ")
         page = (self.dir / "whole.html").read_text()
         self.assertIn("How well the frames agree", page)
         columns = json.loads((self.dir / "whole.json").read_text())["objects"][0]["frame_residuals"]
@@ -64,11 +64,11 @@ class Verdict(harness.TestCase):
             told, verdict = self.scan(name, "--turns", str(turns))
             self.assertEqual(verdict["colour"], colour, told)
             self.assertNotIn("can be printed", told)
-            looks = re.match(r"the frames look from (\d+) of 360 degrees",
+            looks = re.match(r"The frames look from (\d+) of 360 degrees",
                              self.text(verdict, "turn"))
             # 39 steps, and 20 degrees beside the first and the last frame.
             self.assertAlmostEqual(float(looks[1]), 360 * turns * 39 / 40 + 40, delta=1)
-            self.assertIn("a whole turn would show", self.text(verdict, "help"))
+            self.assertIn("A whole turn would show", self.text(verdict, "help"))
 
     def test_a_stale_calibration_is_red_where_it_is_kept_and_has_an_age(self):
         self.ok("simulate", "builtin:letter-a", *HEIGHT, *SCANNER, "--table-x", "6mm", "--table-tilt", "1deg",
@@ -85,24 +85,24 @@ class Verdict(harness.TestCase):
         self.assertNotEqual(verdict["colour"], "green", told)
         said = self.text(verdict, "calibration")
         self.assertIn("made 3 months before this recording (2026-08-01)", said)
-        self.assertRegex(said, r"the platter in it lies [\d.]+ mm \w+, [456]\.\d mm aside")
+        self.assertRegex(said, r"The platter in it lies [\d.]+ mm \w+, [456]\.\d mm aside")
         told = self.ok("reconstruct", "stale", "-o", "m.ply").stdout
-        self.assertIn("the turntable was found from the motion in this recording", told)
+        self.assertIn("The turntable was found from the motion in this recording", told)
 
     def test_an_object_that_moved_is_said_when_and_how_far(self):
         moved = ("--turns", "1.1", "--object-move-at", "5s", "--object-move", "6mm")
         told, verdict = self.scan("kept", *moved, reconstruct=("--calibration", "recorded"))
         self.assertEqual(verdict["colour"], "red", told)
         self.assertRegex(self.text(verdict, "disturbance"),
-                         r"the object moved by [\d.]+ mm at [\d.]+ s.*nothing was done about it")
+                         r"The object moved by [\d.]+ mm at [\d.]+ s.*Nothing was done about it")
         self.assertEqual(self.level(verdict, "agreement"), {"fair"})
         told, verdict = self.scan("right", *moved)
-        self.assertIn("its frames were put right or left out", self.text(verdict, "disturbance"))
+        self.assertIn("Its frames were put right or left out", self.text(verdict, "disturbance"))
         self.assertEqual(self.level(verdict, "agreement"), {"good"}, told)
 
     def test_thin_walls_are_told(self):
         told, verdict = self.scan("thin", object=("builtin:scorpion",))
-        self.assertRegex(self.text(verdict, "thin"), r"walls thinner than [\d.]+ mm, .*, make up [\d.]+ % of the surface")
+        self.assertRegex(self.text(verdict, "thin"), r"Walls thinner than [\d.]+ mm, .*, make up [\d.]+ % of the surface")
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@
 #include <QSettings>
 #include <QStatusBar>
 #include <QTableWidget>
+#include <QTemporaryDir>
 #include <QTest>
 #include <QTextBrowser>
 #include <algorithm>
@@ -207,6 +208,19 @@ TEST_F(Around, TheManualOpensWithItsPicturesAndLinks) {
   browser->setSource(browser->source().resolved(QUrl("textures.md")));
   EXPECT_TRUE(browser->toPlainText().contains("atlas"));
   EXPECT_FALSE(browser->toPlainText().contains("|---|"));  // a table, not its text
+}
+
+TEST_F(Around, TheManualIsItsSiteWhereThatIsInstalled) {
+  EXPECT_TRUE(site_file().isEmpty());
+  const QTemporaryDir prefix;
+  const QString page = prefix.filePath("share/doc/turnscan/html/index.html");
+  for (const char* part : {"share/turnscan/scanners", "share/doc/turnscan/html"})
+    ASSERT_TRUE(QDir().mkpath(prefix.filePath(part)));
+  ASSERT_TRUE(QFile(page).open(QIODevice::WriteOnly));
+  const QByteArray data = qgetenv("TURNSCAN_DATA");
+  qputenv("TURNSCAN_DATA", prefix.filePath("share/turnscan").toUtf8());
+  EXPECT_EQ(site_file(), page);
+  qputenv("TURNSCAN_DATA", data);
 }
 
 TEST_F(Around, AboutNamesVersionAndLicences) {

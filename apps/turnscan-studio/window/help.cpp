@@ -4,6 +4,7 @@
 #include <QAbstractButton>
 #include <QAction>
 #include <QCoreApplication>
+#include <QDesktopServices>
 #include <QDialog>
 #include <QDir>
 #include <QFile>
@@ -11,6 +12,7 @@
 #include <QImage>
 #include <QPlainTextEdit>
 #include <QTextBrowser>
+#include <QUrl>
 #include <QVBoxLayout>
 #include <turnscan/sensors/scanner_file.hpp>
 #include <version/named_version.hpp>
@@ -66,6 +68,25 @@ class ManualBrowser : public QTextBrowser {
   }
 };
 
+/// The file next to the installed program, or in the source tree; empty if it is in neither.
+QString documentation(const QString& name) {
+  QStringList folders;
+  QDir above(QCoreApplication::applicationDirPath());
+  for (int i = 0; i < 4; ++i) {
+    folders << above.filePath("share/doc/turnscan");
+    if (!above.cdUp()) break;
+  }
+  if (const auto data = data_folder()) {
+    const QDir at(QString::fromStdString(data->string()));
+    folders << at.filePath("..") << at.filePath("../doc/turnscan");
+  }
+  for (const QString& folder : folders) {
+    const QString file = QDir(folder).filePath(name);
+    if (QFileInfo::exists(file)) return QFileInfo(file).canonicalFilePath();
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<KeyLine> keys_of(const MainWindow& window) {
@@ -92,26 +113,14 @@ void show_keys(MainWindow& window) {
   dialog_with(window, "keys", MainWindow::tr("Keyboard shortcuts"), text, {520, 560});
 }
 
-QString manual_file() {
-  QStringList folders;
-  // Next to the installed program, and in the source tree.
-  QDir above(QCoreApplication::applicationDirPath());
-  for (int i = 0; i < 4; ++i) {
-    folders << above.filePath("share/doc/turnscan/docs");
-    if (!above.cdUp()) break;
-  }
-  if (const auto data = data_folder()) {
-    const QDir at(QString::fromStdString(data->string()));
-    folders << at.filePath("../docs") << at.filePath("../doc/turnscan/docs");
-  }
-  for (const QString& folder : folders) {
-    const QString file = QDir(folder).filePath("reference/studio.md");
-    if (QFileInfo::exists(file)) return QFileInfo(file).canonicalFilePath();
-  }
-  return {};
-}
+QString manual_file() { return documentation("docs/reference/studio.md"); }
+
+QString site_file() { return documentation("html/index.html"); }
 
 void show_manual(MainWindow& window) {
+  if (const QString site = site_file();
+      !site.isEmpty() && QDesktopServices::openUrl(QUrl::fromLocalFile(site)))
+    return;
   const QString file = manual_file();
   if (file.isEmpty()) {
     window.say(MainWindow::tr("The manual is not installed here"));

@@ -17,6 +17,9 @@ void show_keys(MainWindow& window);
 
 /// docs/reference/studio.md as shipped with the program; empty if it is not installed.
 QString manual_file();
+/// The first page of the manual as a site; empty if that is not installed.
+QString site_file();
+/// The site in the system's browser, or the page in a window of our own.
 void show_manual(MainWindow& window);
 
 void show_messages(MainWindow& window);

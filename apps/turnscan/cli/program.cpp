@@ -7,10 +7,12 @@
 #include <cstdio>
 #include <cstring>
 #include <deque>
+#include <filesystem>
 #include <new>
 #include <system_error>
 #include <turnscan/core/near_name.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/core/process/program_folders.hpp>
 #include <turnscan/sensors/scanner_model.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/text/shown_text.hpp>
@@ -124,11 +126,11 @@ std::string_view advice_for(const Error& error) {
       return "choose another name";
     case ErrorCode::kMissingData:
     case ErrorCode::kTooFewPoints:
-      return "look at the input with 'turnscan info'";
+      return "look at the input with 'turnscan info'; docs/how-to/bad-scan.md lists causes";
     case ErrorCode::kDeviceBusy:
       return "close the other program that uses it";
     case ErrorCode::kDeviceLost:
-      return "check the cable and the power supply";
+      return "check the cable and the power supply (docs/how-to/connect-a-sensor.md)";
     case ErrorCode::kNoPermission:
       return "let your user open it (docs/reference/devices.md says how)";
     default:
@@ -212,17 +214,30 @@ std::string unknown_argument(const std::string& argument, const std::vector<std:
   return fmt::format("{} here; it belongs to {}", none, fmt::join(also_in, ", "));
 }
 
+/// Where the pages of the manual are that the texts of this program name.
+std::string place_of_manual() {
+  for (const char* first : {"html/index.html", "docs/index.md"})
+    for (const auto& folder : process::own_folders("share/doc/turnscan"))
+      if (std::error_code error; std::filesystem::exists(folder / first, error))
+        return fmt::format("The manual is {}.", (folder / first).string());
+  return "The manual is docs/index.md, in the sources.";
+}
+
 }  // namespace
 
 struct Program::Entry {
-  std::string help;
+  std::string help, page;
   std::unique_ptr<Command> command;
   CLI::App* app;
   CommandLine line;
   RunOptions run_options;
 
-  Entry(std::string help_text, std::unique_ptr<Command> c, CLI::App* a)
-      : help(std::move(help_text)), command(std::move(c)), app(a), line(*a) {
+  Entry(std::string help_text, std::string of_manual, std::unique_ptr<Command> c, CLI::App* a)
+      : help(std::move(help_text)),
+        page(std::move(of_manual)),
+        command(std::move(c)),
+        app(a),
+        line(*a) {
     command->declare(line);
     line.group("run", "Running", describe(run_options));
     app->allow_extras();  // so that we can suggest the nearest option ourselves
@@ -247,7 +262,8 @@ Program::Program() : parts_(std::make_unique<Parts>()) {
   formatter.label("Positionals", "Arguments");
   app.formatter(parts_->formatter);
   app.set_help_flag("-h,--help", "Print this help and exit");
-  app.footer("'turnscan help COMMAND' or 'turnscan COMMAND --help' explains one command.");
+  app.footer("'turnscan help COMMAND' or 'turnscan COMMAND --help' explains one command.\n" +
+             place_of_manual());
 }
 
 Program::~Program() = default;
@@ -265,11 +281,11 @@ FileReference scanner_file() {
 
 }  // namespace
 
-void Program::add(const std::string& name, const std::string& help,
+void Program::add(const std::string& name, const std::string& help, const std::string& page,
                   std::unique_ptr<Command> command) {
   CLI::App* app = parts_->app.add_subcommand(name, help);
   app->group("Commands");
-  parts_->entries.emplace_back(help, std::move(command), app);
+  parts_->entries.emplace_back(help, page, std::move(command), app);
   app->set_help_all_flag("--help-all", "Print all options and exit");
 }
 
@@ -306,9 +322,8 @@ void Program::add_reference() {
     const Program& program_;
     std::string format_ = "markdown";
   };
-  add("reference",
-      "Print the reference page of all commands and options (docs/reference/options.md)",
-      std::make_unique<ReferenceCommand>(*this));
+  add("reference", "Print the reference page of all commands and options",
+      "docs/reference/options.md", std::make_unique<ReferenceCommand>(*this));
 }
 
 std::vector<std::string> Program::commands_with(const std::string& option) const {
@@ -371,8 +386,9 @@ int Program::run_command(Entry& entry) {
 std::string Program::help() {
   if (Entry* entry = chosen()) {
     parts_->formatter->put_first(entry->line.show_common());
-    entry->app->footer(fmt::format("'turnscan {} --help-all' explains all {} options.",
-                                   entry->app->get_name(), entry->line.option_count()));
+    entry->app->footer(
+        fmt::format("'turnscan {} --help-all' explains all {} options.\nThe manual has more in {}.",
+                    entry->app->get_name(), entry->line.option_count(), entry->page));
   }
   return parts_->app.help();
 }

@@ -16,8 +16,10 @@ class Program {
   Program();
   ~Program();
 
-  /// help: one sentence. add_reference() adds the command that prints the reference page.
-  void add(const std::string& name, const std::string& help, std::unique_ptr<Command> command);
+  /// help: one sentence; page: of the manual, with more. add_reference() adds the command that
+  /// prints the reference page.
+  void add(const std::string& name, const std::string& help, const std::string& page,
+           std::unique_ptr<Command> command);
   void add_reference();
 
   int run(int argc, char** argv);

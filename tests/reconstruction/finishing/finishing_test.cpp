@@ -64,7 +64,8 @@ TEST(FinishObjects, LeavesLargeHolesOpenAndClosesSmallOnes) {
   for (std::size_t v = 0; v < object.confidence.size(); ++v)
     EXPECT_EQ(object.confidence[v], object.mesh.vertices[v].x());
   EXPECT_EQ(object.evidence.size(), object.mesh.triangles.size());
-  EXPECT_NE(object.notes.back().find("1 hole left open"), std::string::npos) << object.notes.back();
+  EXPECT_NE(object.notes.back().find("one hole was left open"), std::string::npos)
+      << object.notes.back();
 }
 
 TEST(FinishObjects, LeavesEveryHoleOpenDownToNothing) {

@@ -51,7 +51,7 @@ TEST(Volumetric, StandsFlatOnThePlatter) {
     if (std::max({a.y(), b.y(), c.y()}) < 1e-6f) flat += 0.5 * (b - a).cross(c - a).norm();
   }
   EXPECT_NEAR(flat, 0.03 * 0.03, 0.25 * 0.03 * 0.03);  // the rim is a voxel wide
-  EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("base closed")));
+  EXPECT_THAT(result->objects[0].notes, ::testing::Contains(HasSubstr("base was closed")));
 }
 
 TEST(Volumetric, StandsOnAPlatterOfKnownRadiusThatIsNotSeen) {

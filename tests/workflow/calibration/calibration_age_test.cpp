@@ -17,14 +17,14 @@ using workflow::dates_of;
 
 TEST(CalibrationAge, IsSaidInWords) {
   EXPECT_EQ(age_text({"2026-11-01T08:00:00Z", "2026-08-01T08:00:00Z"}),
-            "made 3 months before this recording (2026-08-01)");
+            "The calibration was made 3 months before this recording (2026-08-01).");
   EXPECT_EQ(age_text({"2026-11-01T08:00:00Z", "2026-11-01T07:20:00Z"}),
-            "made 40 minutes before this recording (2026-11-01)");
+            "The calibration was made 40 minutes before this recording (2026-11-01).");
   EXPECT_EQ(age_text({"2026-11-01T08:00:00Z", "2026-11-03T08:00:00Z"}),
-            "made 2 days after this recording (2026-11-03)");
+            "The calibration was made 2 days after this recording (2026-11-03).");
   EXPECT_EQ(age_text({"", "2026-11-03T08:00:00Z"}),
-            "made on 2026-11-03; when this was recorded is not known");
-  EXPECT_EQ(age_text({"2026-11-01T08:00:00Z", ""}), "when it was made is not known");
+            "The calibration was made on 2026-11-03. When this was recorded is not known.");
+  EXPECT_EQ(age_text({"2026-11-01T08:00:00Z", ""}), "When the calibration was made is not known.");
 }
 
 TEST(CalibrationAge, ComesFromTheRecordingOrFromTheFileThatIsUsedInstead) {

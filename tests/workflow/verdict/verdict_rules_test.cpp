@@ -126,7 +126,7 @@ TEST(JudgeObjects, CallWhatCannotBeBadAndWhatMayBeAMirrorImageFair) {
   known.findings.push_back({Plausibility::kImplausible, "times go back", ""});
   judge_objects(run, known);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "plausibility")->level, Level::kBad);
-  EXPECT_EQ(sentence(*run.objects[0].verdict, "plausibility")->text, "times go back");
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "plausibility")->text, "Times go back.");
 }
 
 /// An upright square sheet.
@@ -205,7 +205,7 @@ TEST(JudgeObjects, SayWhichFramesDisagree) {
   EXPECT_EQ(sentence(*run.objects[0].verdict, "agreement")->level, Level::kFair);
   EXPECT_EQ(apart->text,
             "3 of 40 frames lie elsewhere than the rest: frames 20 to 21 at 2.0 to 2.1 s (4.0 mm), "
-            "frame 30 at 3.0 s (4.0 mm)");
+            "frame 30 at 3.0 s (4.0 mm).");
   known.residuals[0].resize(20);
   judge_objects(run, known);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "apart"), nullptr);
@@ -268,11 +268,11 @@ TEST(JudgeObjects, CallPrintableOnlyWhatFramesLookAtFromAllSides) {
     judge_objects(run, known);
     return sentence(*object.verdict, "mesh")->text;
   };
-  EXPECT_EQ(said(358.0), "it is watertight and can be printed");
-  EXPECT_EQ(said(250.0), "it is watertight and can be printed");
+  EXPECT_EQ(said(358.0), "It is watertight and can be printed.");
+  EXPECT_EQ(said(250.0), "It is watertight and can be printed.");
   EXPECT_EQ(sentence(*object.verdict, "turn")->level, Level::kGood);
   EXPECT_EQ(sentence(*object.verdict, "turn")->text,
-            "the frames look from all sides, up to 110 degrees apart");
+            "The frames look from all sides, up to 110 degrees apart.");
   EXPECT_EQ(said(236.0).find("can be printed"), std::string::npos);
   EXPECT_EQ(sentence(*object.verdict, "turn")->level, Level::kFair);
   EXPECT_EQ(said(0.4 * 360.0).find("can be printed"), std::string::npos) << "nothing else is wrong";
@@ -290,23 +290,24 @@ TEST(JudgeObjects, SayHowMuchASecondPassWouldShow) {
   known.next_pass->poses = {pose};
   judge_objects(run, known);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text,
-            "a second pass would show 3100 cm2 more: lay it on its left side (turnscan scan "
-            "--passes 2)");
+            "A second pass would show 3100 cm2 more: lay it on its left side (turnscan scan "
+            "--passes 2).");
   run.passes.resize(2);
   judge_objects(run, known);
   EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text,
-            "another pass would show 3100 cm2 more: lay it on its left side (turnscan scan "
-            "--passes 3)");
+            "Another pass would show 3100 cm2 more: lay it on its left side (turnscan scan "
+            "--passes 3).");
 }
 
 TEST(JudgeObjects, AdviseToTurnSlowerWhereFewFramesSawItAndToStandNearerElse) {
   Reconstruction run = sheet();
   for (VertexQuality& q : run.objects[0].quality) q.expected_error_m = 0.001f;
   judge_objects(run, {});
-  EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text.rfind("slower", 0), 0u);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text.rfind("Let the table turn", 0), 0u);
   for (VertexQuality& q : run.objects[0].quality) q.frames = 200;
   judge_objects(run, {});
-  EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text.rfind("nearer", 0), 0u);
+  EXPECT_EQ(sentence(*run.objects[0].verdict, "help")->text.rfind("Move the sensor to half", 0),
+            0u);
 }
 
 TEST(JudgeObjects, SayHowOldTheCalibrationIsAndWhatThePlatterSaysOfIt) {
@@ -318,9 +319,10 @@ TEST(JudgeObjects, SayHowOldTheCalibrationIsAndWhatThePlatterSaysOfIt) {
   known.dates = {"2026-11-01T08:00:00Z", "2026-08-01T08:00:00Z"};
   judge_objects(run, known);
   const auto said = [&] { return *sentence(*run.objects[0].verdict, "calibration"); };
-  EXPECT_EQ(said().text,
-            "no platter was seen in it to check the calibration by; the calibration: made 3 months "
-            "before this recording (2026-08-01)");
+  EXPECT_EQ(
+      said().text,
+      "No platter was seen in it to check the calibration by. The calibration was made 3 months "
+      "before this recording (2026-08-01).");
   EXPECT_EQ(said().level, Level::kGood);
   known.platter.emplace();
   known.platter->moved = true;
@@ -328,7 +330,7 @@ TEST(JudgeObjects, SayHowOldTheCalibrationIsAndWhatThePlatterSaysOfIt) {
   judge_objects(run, known);
   EXPECT_EQ(said().level, Level::kFair);
   EXPECT_EQ(
-      said().text.rfind("the platter in it lies 1.0 mm lower, 6.0 mm aside and tilted by 0.57 "
+      said().text.rfind("The platter in it lies 1.0 mm lower, 6.0 mm aside and tilted by 0.57 "
                         "deg against the calibration",
                         0),
       0u)
@@ -362,7 +364,8 @@ TEST(VerdictText, SaysTheColourAndASentenceALine) {
                        {"help", Level::kGood, "a second pass", 31.0, "cm2"}};
   EXPECT_EQ(verdict_text(verdict),
             "Verdict: AMBER\n  turn   good  all sides\n  error  fair  0.4 mm\n"
-            "  help   note  a second pass\n");
+            "  help   note  a second pass\n"
+            "docs/how-to/bad-scan.md lists causes and remedies.\n");
 }
 
 TEST(ReconstructionText, BeginsWithTheVerdict) {

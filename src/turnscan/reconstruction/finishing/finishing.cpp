@@ -90,8 +90,10 @@ Result<std::size_t> drop_small_parts(ObjectResult& object, double least_m) {
 std::string holes_text(const std::vector<HolePatch>& patches, const char* what) {
   double area_m2 = 0.0;
   for (const HolePatch& patch : patches) area_m2 += patch.area_m2;
-  return fmt::format("{} hole{} {}, {:.1f} cm^2 that nothing measured", patches.size(),
-                     patches.size() == 1 ? "" : "s", what, area_m2 * 1e4);
+  return fmt::format("{} {}: {:.1f} cm^2 that nothing measured",
+                     patches.size() == 1 ? std::string("one hole was")
+                                         : fmt::format("{} holes were", patches.size()),
+                     what, area_m2 * 1e4);
 }
 
 Result<> open_holes(ObjectResult& object, const std::vector<HolePatch>& patches, double size_m) {
@@ -181,7 +183,7 @@ Result<> cut(ObjectResult& object, const std::vector<HalfSpace>& kept, const Run
     take(std::move(clipped), object);
   }
   if (area_m2 > 0.0)
-    object.notes.push_back(fmt::format("cut as asked for, with {:.1f} cm^2 of flat faces{}",
+    object.notes.push_back(fmt::format("it was cut as asked for, with {:.1f} cm^2 of flat faces{}",
                                        area_m2 * 1e4,
                                        outlines_cross ? ", some of which cross each other" : ""));
   return {};
@@ -205,9 +207,10 @@ Result<> finish_object(const FinishOptions& options, const std::vector<HalfSpace
   if (options.smallest_part_m > 0.0) {
     TURNSCAN_ASSIGN(const std::size_t parts, drop_small_parts(object, options.smallest_part_m));
     if (parts > 0)
-      object.notes.push_back(fmt::format("{} part{} smaller than {} dropped", parts,
-                                         parts == 1 ? "" : "s",
-                                         length_text(options.smallest_part_m)));
+      object.notes.push_back(fmt::format(
+          "{} smaller than {} dropped",
+          parts == 1 ? std::string("one part was") : fmt::format("{} parts were", parts),
+          length_text(options.smallest_part_m)));
   }
   object.check = check_mesh(object.mesh);
   if (!object.evidence.empty()) object.invented_area_m2 = invented_area(object);

@@ -113,10 +113,10 @@ Result<> PointStages::choose_voxels() {
   grid_.filter(in_object);
   std::erase(components_.label, -1);
   if (components_.crumbs > 0)
-    out_.notes.push_back(fmt::format("{} small pieces dropped", components_.crumbs));
+    out_.notes.push_back(fmt::format("{} small pieces were dropped", components_.crumbs));
   if (components_.joined > 0)
-    out_.notes.push_back(fmt::format("pieces above the platter joined to what stands below: {}",
-                                     components_.joined));
+    out_.notes.push_back(fmt::format(
+        "pieces above the platter were joined to what stands below them: {}", components_.joined));
   PointCloud centers;
   for (const voxels::VoxelGrid::Voxel& voxel : grid_.voxels()) {
     centers.points.push_back(grid_.center(voxel).cast<float>());
@@ -184,7 +184,7 @@ Result<> PointStages::split_objects() {
                              base.added.colors.end());
       if (!base.added.empty())
         out_.objects[o].notes.push_back(
-            fmt::format("base closed on the platter over {:.1f} cm^2", base.area_m2 * 1e4));
+            fmt::format("its base was closed on the platter over {:.1f} cm^2", base.area_m2 * 1e4));
     }
     all.points.insert(all.points.end(), object.points.begin(), object.points.end());
     all.normals.insert(all.normals.end(), object.normals.begin(), object.normals.end());

@@ -70,7 +70,9 @@ Result<MarkedPiece> main_piece(const TriangleMesh& mesh, const KdTree& tree, dou
   }
   out.mesh = kept.size() == 1 ? std::move(kept[0]) : join_meshes(kept);
   if (const std::size_t removed = pieces.size() - kept.size(); removed > 0)
-    notes.push_back(fmt::format("removed {} loose piece{}", removed, removed == 1 ? "" : "s"));
+    notes.push_back(fmt::format("{} removed", removed == 1
+                                                  ? std::string("one loose piece was")
+                                                  : fmt::format("{} loose pieces were", removed)));
   return out;
 }
 
@@ -152,8 +154,10 @@ Result<> deflate(MarkedPiece& piece, std::vector<std::string>& notes, const RunC
     piece.unsupported[v] = 1;
   }
   if (replaced > 0)
-    notes.push_back(fmt::format("tightened {} region{} that no sensor saw", replaced,
-                                replaced == 1 ? "" : "s"));
+    notes.push_back(
+        fmt::format("{} that no sensor saw {} tightened",
+                    replaced == 1 ? std::string("one region") : fmt::format("{} regions", replaced),
+                    replaced == 1 ? "was" : "were"));
   return {};
 }
 

@@ -117,8 +117,8 @@ ObjectResult object_of(VolumetricPiece& piece, bool color_wanted) {
   if (color_wanted && object.mesh.colors.empty())
     object.notes.emplace_back("the recording has no colour");
   if (piece.base_area_m2 > 0.0)
-    object.notes.push_back(
-        fmt::format("base closed on the platter over {:.1f} cm^2", piece.base_area_m2 * 1e4));
+    object.notes.push_back(fmt::format("its base was closed on the platter over {:.1f} cm^2",
+                                       piece.base_area_m2 * 1e4));
   if (piece.no_return_area_m2 >= kMinNoReturn_m2) {
     object.no_return_area_m2 = piece.no_return_area_m2;
     object.too_near = piece.too_near_area_m2 > 0.5 * piece.no_return_area_m2;

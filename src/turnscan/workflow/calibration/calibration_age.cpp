@@ -38,12 +38,16 @@ ScanDates dates_of(const FrameSequence& sequence, const std::string& turntable_f
 
 std::string age_text(const ScanDates& dates) {
   const auto made = utc_seconds(dates.calibrated_at), started = utc_seconds(dates.started_at);
-  if (!made) return "when it was made is not known";
+  if (!made) return "When the calibration was made is not known.";
   const std::string day = dates.calibrated_at.substr(0, kDateLength);
-  if (!started) return fmt::format("made on {}; when this was recorded is not known", day);
+  if (!started)
+    return fmt::format("The calibration was made on {}. When this was recorded is not known.", day);
   const double age = double(*started - *made);
-  if (age < 0.0) return fmt::format("made {} after this recording ({})", duration_text(-age), day);
-  return fmt::format("made {} before this recording ({})", duration_text(age), day);
+  if (age < 0.0)
+    return fmt::format("The calibration was made {} after this recording ({}).",
+                       duration_text(-age), day);
+  return fmt::format("The calibration was made {} before this recording ({}).", duration_text(age),
+                     day);
 }
 
 Result<std::optional<RigCheck>> platter_against_calibration(const FrameSequence& sequence,

@@ -20,7 +20,8 @@ ScanDates dates_of(const FrameSequence& sequence);
 /// recording's. The date is empty if the file cannot be read.
 ScanDates dates_of(const FrameSequence& sequence, const std::string& turntable_file);
 
-/// "made 3 months before this recording (2026-08-01)"; says so if a date is not known.
+/// "The calibration was made 3 months before this recording (2026-08-01)."; says so if a date is
+/// not known.
 std::string age_text(const ScanDates& dates);
 
 /// Compares the platter seen in up to 12 frames of the recording's first sensor with the sequence's

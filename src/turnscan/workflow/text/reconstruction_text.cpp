@@ -139,7 +139,9 @@ std::string verdict_text(const Verdict& verdict) {
   workflow::TextTable table({0, 1, 2});
   for (const VerdictSentence& s : verdict.sentences)
     table.add({s.topic, std::string(is_remark(s) ? "note" : name_of(s.level)), s.text});
-  return fmt::format("Verdict: {}\n{}", colour, table.text(2));
+  const bool good = verdict.level() == Level::kGood;
+  return fmt::format("Verdict: {}\n{}{}", colour, table.text(2),
+                     good ? "" : "docs/how-to/bad-scan.md lists causes and remedies.\n");
 }
 
 std::string reconstruction_text(const Reconstruction& r) {

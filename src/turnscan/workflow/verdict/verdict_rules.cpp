@@ -118,8 +118,8 @@ class Judge {
     }
     const int usual = weighted_quantile(frames, 0.5), least = weighted_quantile(frames, 0.05);
     say("seen", usual >= kConfirmed ? Level::kGood : Level::kFair,
-        fmt::format("half of what was measured was seen by {} frames or more, from {} or more "
-                    "directions (30 degrees each); 5 % of it by {} or fewer",
+        fmt::format("Half of the measured surface was seen by {} frames or more, from {} or more "
+                    "directions (30 degrees each). 5 % of it was seen by {} or fewer.",
                     usual, weighted_quantile(directions, 0.5), least),
         usual, "frames");
   }
@@ -127,7 +127,7 @@ class Judge {
   void add_error() {
     if (object_.quality.empty()) {
       say("error", Level::kFair,
-          "how far it lies from the truth is only estimated with --method volumetric");
+          "How far it lies from the truth is estimated with --method volumetric only.");
       return;
     }
     const ErrorShares errors = error_shares();
@@ -135,14 +135,14 @@ class Judge {
     const auto median_m = errors.error_of(0.5), most_m = errors.error_of(0.95);
     if (!median_m) {
       say("error", Level::kFair,
-          "how far it lies from the truth is not known: too few frames see each place");
+          "How far it lies from the truth is not known, because too few frames see each place.");
       return;
     }
-    const std::string most =
-        most_m ? fmt::format("95 % within {:.2f} mm", *most_m * 1e3) : "of the rest more";
+    const std::string most = most_m ? fmt::format("95 % of it lies within {:.2f} mm", *most_m * 1e3)
+                                    : "How far the worst 5 % of it lies is not known";
     say("error", workflow::level_of(share, kGoodShare, kFairShare),
-        fmt::format("what was measured is expected {:.2f} mm from the truth (median; {}), {:.1f} % "
-                    "of it within 1 mm",
+        fmt::format("The measured surface is expected to lie {:.2f} mm from the truth in the "
+                    "median. {}, and {:.1f} % within 1 mm.",
                     *median_m * 1e3, most, 100.0 * share),
         *median_m * 1e3, "mm");
   }
@@ -191,7 +191,8 @@ class Judge {
                              : up > 0.6 ? "on top"
                                         : fmt::format("on the side at {:.0f} deg",
                                                       heading < 0.0 ? heading + 360.0 : heading);
-    return fmt::format("{:.1f} cm2 {}, {:.0f} mm high", hole.area_m2 * 1e4, side, middle.y() * 1e3);
+    return fmt::format("{:.1f} cm2 {} at a height of {:.0f} mm", hole.area_m2 * 1e4, side,
+                       middle.y() * 1e3);
   }
 
   /// Standard deviation of the height of the base if it is not known within the tolerance: without
@@ -224,26 +225,26 @@ class Judge {
     std::string largest;
     for (std::size_t i = 0; i < std::min(holes.size(), kNamedHoles); ++i)
       if (holes[i].area_m2 > 1e-4)
-        largest += fmt::format("{}{}", largest.empty() ? "; the largest holes: " : ", ",
+        largest += fmt::format("{}{}", largest.empty() ? " The largest holes: " : ", ",
                                place_of(object_.mesh, holes[i]));
     std::string text =
-        fmt::format("{:.1f} cm2 ({:.0f} %) of the surface was not measured but closed",
+        fmt::format("{:.1f} cm2 ({:.0f} %) of the surface was not measured but closed.",
                     object_.invented_area_m2 * 1e4, 100.0 * invented);
     if (base > 0.0 && height_sigma_m)
-      text += fmt::format(", and {:.1f} cm2 ({:.0f} %) of base at a height known to {:.1f} mm",
+      text += fmt::format(" {:.1f} cm2 ({:.0f} %) is the base, whose height is known to {:.1f} mm.",
                           base_m2 * 1e4, 100.0 * base, *height_sigma_m * 1e3);
     else if (base > 0.0)
-      text += fmt::format(", and {:.1f} cm2 ({:.0f} %) of base stood on the platter", base_m2 * 1e4,
-                          100.0 * base);
+      text += fmt::format(" {:.1f} cm2 ({:.0f} %) is the base, which stood on the platter.",
+                          base_m2 * 1e4, 100.0 * base);
     if (unseen)
-      text += fmt::format("; {:.1f} cm2 ({:.0f} %){} hardly a frame could see{}",
+      text += fmt::format(" Hardly a frame could see {:.1f} cm2 ({:.0f} %){}{}.",
                           hidden_ * area_m2 * 1e4, 100.0 * hidden_,
                           height_sigma_m ? "" : " besides the base",
                           !(object_.no_return_area_m2 > 0.0) ? ""
-                          : object_.too_near ? " or returned nothing, being too near"
-                                             : " or returned nothing");
+                          : object_.too_near ? ", or got a return from there, which was too near"
+                                             : ", or got a return from there");
     say("invented", workflow::level_of(1.0 - hidden_, 1.0 - kGoodHidden, 1.0 - kFairHidden),
-        text + largest, 100.0 * invented, "%");
+        text + (largest.empty() ? "" : largest + "."), 100.0 * invented, "%");
   }
 
   void add_unknown_volume() {
@@ -252,9 +253,9 @@ class Judge {
     const double share = object_.unknown_volume_m3 / volume_m3;
     if (share < kShownUnknown) return;
     say("hollow", share > kFairUnknown ? Level::kFair : Level::kGood,
-        fmt::format("{:.0f} of its {:.0f} cm3 ({:.0f} %) lie behind a hollow deeper than any frame "
-                    "looked into, and are filled: a vessel holds as much more; look in from "
-                    "higher, or leave it open with --holes open",
+        fmt::format("{:.0f} of its {:.0f} cm3 ({:.0f} %) lie in a hollow whose floor no frame saw, "
+                    "and are filled. Look in from higher, or leave the hollow open with --holes "
+                    "open.",
                     object_.unknown_volume_m3 * 1e6, volume_m3 * 1e6, 100.0 * share),
         100.0 * share, "%");
   }
@@ -276,15 +277,15 @@ class Judge {
     const double nozzle = share_thinner_than(kNozzle_m, walls), pixels = 2.0 * run_.frame_spacing_m;
     if (nozzle > 0.002)
       say("thin", Level::kGood,
-          fmt::format("walls thinner than 0.8 mm, which a usual nozzle does not print, make up "
-                      "{:.1f} % of the surface",
+          fmt::format("Walls thinner than 0.8 mm, which a usual nozzle does not print, make up "
+                      "{:.1f} % of the surface.",
                       100.0 * nozzle),
           100.0 * nozzle, "%");
     const double fine = pixels > kNozzle_m ? share_thinner_than(pixels, walls) : 0.0;
     if (fine > 0.02)
       say("thin", Level::kGood,
-          fmt::format("walls thinner than {:.1f} mm, two pixels of the sensor, make up {:.0f} % of "
-                      "the surface; their thickness is uncertain",
+          fmt::format("Walls thinner than {:.1f} mm, two pixels of the sensor, make up {:.0f} % of "
+                      "the surface. Their thickness is uncertain.",
                       pixels * 1e3, 100.0 * fine),
           100.0 * fine, "%");
   }
@@ -292,19 +293,19 @@ class Judge {
   void add_mesh() {
     const bool watertight = object_.check.watertight();
     if (object_.left_open && !watertight) {
-      say("mesh", Level::kGood, "it was left open, as asked for");
+      say("mesh", Level::kGood, "It was left open, as asked for.");
       return;
     }
     if (!watertight)
-      say("mesh", Level::kBad, fmt::format("it is not watertight ({})", object_.check.text()));
+      say("mesh", Level::kBad, fmt::format("It is not watertight ({}).", object_.check.text()));
     else if (out_.level() == Level::kBad)
-      say("mesh", Level::kFair, "it is watertight, but much of it is not what stood on the table");
+      say("mesh", Level::kFair, "It is watertight, but much of it is not what stood on the table.");
     else if (!looked_from_all_sides())
       say("mesh", Level::kFair,
-          "it is watertight, but to one side of it no frame looks: how deep it is there is a "
-          "guess");
+          "It is watertight, but no frame looks at one side of it. How deep it is there is a "
+          "guess.");
     else
-      say("mesh", Level::kGood, "it is watertight and can be printed");
+      say("mesh", Level::kGood, "It is watertight and can be printed.");
   }
 
   bool looked_from_all_sides() const {
@@ -326,22 +327,23 @@ class Judge {
   }
 
   void add_help() {
-    const char* further = passes() == 1 ? "a second pass" : "another pass";
+    const char* further = passes() == 1 ? "A second pass" : "Another pass";
     const std::string how = fmt::format("(turnscan scan --passes {})", passes() + 1);
     if (!looked_from_all_sides())
-      say("help", Level::kGood, "a whole turn would show the other sides");
+      say("help", Level::kGood, "A whole turn would show the other sides.");
     else if (const NextPose* pose = best_pose())
       say("help", Level::kGood,
-          fmt::format("{} would show {:.0f} cm2 more: {} {}", further, pose->shows_m2 * 1e4,
+          fmt::format("{} would show {:.0f} cm2 more: {} {}.", further, pose->shows_m2 * 1e4,
                       deed_text(*pose), how),
           pose->shows_m2 * 1e4, "cm2");
     else if (hidden_ > 0.5 * kGoodHidden)
       say("help", Level::kGood,
-          fmt::format("{}, the object laid another way, would show what none saw {}", further,
-                      how));
+          fmt::format("{}, with the object laid another way, would show what no frame saw {}.",
+                      further, how));
     if (object_.too_near)
       say("help", Level::kGood,
-          "farther: parts of it are nearer to the sensor than anything that it measured");
+          "Move the sensor farther away: parts of the object are nearer than anything that it "
+          "measured.");
     add_what_helps_accuracy();
   }
 
@@ -356,18 +358,19 @@ class Judge {
     const PoseError pose = pose_error(known_);
     if (pose.shift_m > kPoseMatters_m)
       say("help", Level::kGood,
-          "a better calibration would help most: record a turn or more, with the platter in view "
-          "if there is one");
+          "A better calibration would help most. Record a turn or more, with the platter in view "
+          "if there is one.");
     else if (seen != out_.sentences.end() && seen->value < kManyFrames)
       say("help", Level::kGood,
-          fmt::format("slower: let the table turn at a quarter of the speed, or take four times as "
-                      "many frames a second: then {:.0f} frames see what {:.0f} saw, and noise "
-                      "averages to half",
+          fmt::format("Let the table turn at a quarter of the speed, or take four times as many "
+                      "frames a second. Then {:.0f} frames see what {:.0f} saw, and noise averages "
+                      "to half.",
                       4.0 * seen->value, seen->value));
     else if (!object_.too_near)
       say("help", Level::kGood,
-          "nearer: with the sensor at half the distance pixels lie half as far apart, and noise is "
-          "smaller");
+          "Move the sensor to half the distance. Its pixels then lie half as far apart, and noise "
+          "is "
+          "smaller.");
   }
 
   ObjectResult& object_;
