@@ -5,7 +5,7 @@ import re
 
 # Folder of a kind of pages and the most lines of a page; pages that are looked things up in may be longer.
 KINDS = {"docs/tutorials": 150, "docs/how-to": 80, "docs/explanation": 150, "docs": 150,
-         "docs/reference": None, "docs/reference/stages": None, "docs/research": None}
+         "docs/reference": None, "docs/reference/stages": None, "docs/research": None, "docs/thesis": None}
 TOP_PAGES = {"docs/index.md", "docs/faq.md", "docs/glossary.md"}
 MOST_WORDS = 1500
 MOST_LINES_TOGETHER = 3500

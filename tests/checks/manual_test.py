@@ -12,7 +12,7 @@ from sample import RuleTest, found  # noqa: E402
 
 class Rules(RuleTest):
     def test_every_page_is_of_a_kind(self):
-        for page in ("how-to/a", "tutorials/a", "explanation/a", "reference/stages/a", "research/a", "faq"):
+        for page in ("how-to/a", "tutorials/a", "explanation/a", "reference/stages/a", "research/a", "thesis/a", "faq"):
             self.quiet(manual.pages_of_no_kind, f"docs/{page}.md", "")
         for page in ("a", "notes/a", "how-to/more/a"):
             self.speaks(manual.pages_of_no_kind, f"docs/{page}.md", "")
