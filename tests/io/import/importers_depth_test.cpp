@@ -124,7 +124,7 @@ TEST(DepthFolder, OfStrayScannerIsNotRtabmaps) {
 
 TEST(DepthFolder, OfOtherFilesIsToldToConvertThem) {
   const TempFolder folder;
-  folder.put("depth_0.tiff", "x");
+  folder.put("depth_0.exr", "x");
   folder.put("views.json", "{}");
   EXPECT_THAT(refusal(folder.path()).message, HasSubstr("write depth as 16-bit PNG or NPY"));
 }
@@ -218,6 +218,68 @@ TEST(DepthFolder, TakesArraysOfIntegersPgmAndEightBits) {
   const auto sequence = open(folder.path(), options);
   EXPECT_EQ(frame_of(*sequence, 0).depth.at(1, 1), 200);
   EXPECT_THAT(sequence->header().source, HasSubstr("8 bits"));
+}
+
+/// A TIFF of one strip that is not packed, by the specification (TIFF 6.0, sections 2 and 8).
+std::string tiff(bool big, std::uint32_t columns, std::uint32_t rows, std::uint16_t bits,
+                 std::uint16_t format, const std::string& values, std::uint16_t codec = 1) {
+  const auto number = [&](std::uint32_t value, int bytes) {
+    std::string out;
+    for (int k = 0; k < bytes; ++k) out += char(value >> (8 * (big ? bytes - 1 - k : k)));
+    return out;
+  };
+  struct Entry {
+    std::uint16_t tag, type;
+    std::uint32_t value;
+  };
+  constexpr std::uint16_t kShort = 3, kLong = 4;
+  const std::vector<Entry> entries{
+      {256, kLong, columns}, {257, kLong, rows}, {258, kShort, bits},
+      {259, kShort, codec},  {262, kShort, 1},   {273, kLong, 8},
+      {277, kShort, 1},      {278, kLong, rows}, {279, kLong, std::uint32_t(values.size())},
+      {339, kShort, format}};
+  std::string out = (big ? "MM" : "II") + number(42, 2);
+  out += number(std::uint32_t(8 + values.size()), 4) + values + number(entries.size(), 2);
+  for (const Entry& e : entries) {
+    const bool is_short = e.type == kShort;
+    out += number(e.tag, 2) + number(e.type, 2) + number(1, 4) + number(e.value, is_short ? 2 : 4);
+    if (is_short) out += std::string(2, '\0');
+  }
+  return out + number(0, 4);
+}
+
+TEST(DepthFolder, TakesTiffOfIntegersAndFloats) {
+  ImportOptions options = with_depth_unit();
+  options.intrinsics = "585,585,1,0.5";
+  const auto pixels = [&](const char* name, const std::string& bytes) {
+    const TempFolder folder;
+    folder.put(name, bytes);
+    return frame_of(*open(folder.path(), options), 0).depth.pixels;
+  };
+  const std::string four("\1\2\0\1\0\0\3\0", 8);
+  EXPECT_THAT(pixels("a.tiff", tiff(true, 2, 2, 16, 1, four)), ElementsAre(0x0102, 1, 0, 0x0300));
+  EXPECT_THAT(pixels("a.tif", tiff(false, 2, 2, 16, 1, four)), ElementsAre(0x0201, 0x0100, 0, 3));
+  const std::array<float, 2> floats{0.5f, std::numeric_limits<float>::quiet_NaN()};
+  const std::string bytes(reinterpret_cast<const char*>(floats.data()), sizeof(floats));
+  options.depth_unit_m.reset();
+  EXPECT_THAT(pixels("a.tif", tiff(false, 2, 1, 32, 3, bytes)), ElementsAre(5000, 0));
+}
+
+TEST(DepthFolder, TiffThatIsNotDepthOrIsDamagedIsNamed) {
+  ImportOptions options = with_depth_unit();
+  options.intrinsics = "585,585,1,0.5";
+  const auto why = [&](const std::string& bytes) {
+    const TempFolder folder;
+    folder.put("a.tif", bytes);
+    return refusal(folder.path(), options).text();
+  };
+  const std::string four(8, '\1');
+  EXPECT_THAT(why(tiff(false, 2, 2, 12, 1, four)), HasSubstr("12 bits a value"));
+  EXPECT_THAT(why(tiff(false, 2, 2, 16, 1, four, 7)), HasSubstr("codec 7"));
+  EXPECT_THAT(why(tiff(false, 60000, 600, 16, 1, four)), HasSubstr("cannot hold 60000 x 600"));
+  EXPECT_THAT(why(tiff(false, 60000, 60000, 16, 1, four)), HasSubstr("at most"));
+  EXPECT_THAT(why(tiff(false, 2, 300, 16, 1, four)), HasSubstr("row"));
+  EXPECT_THAT(why(tiff(false, 2, 2, 16, 1, four).substr(0, 40)), HasSubstr("tables"));
 }
 
 TEST(DepthFolder, DamagedArraysAreNamed) {

@@ -9,11 +9,14 @@
 #include <turnscan/io/file/decode_file.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/image/png_codec.hpp>
+#include <turnscan/io/image/tiff_numbers.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
 namespace turnscan {
 
 namespace {
+
+using image::NumberImage;
 
 constexpr std::string_view kNpyMagic("\x93NUMPY", 6);
 
@@ -38,15 +41,8 @@ std::string_view npy_field(std::string_view header, std::string_view name, std::
   return text::trimmed(header.substr(0, header.find_first_of(end)));
 }
 
-struct NpyHeader {
-  char kind = 0;         ///< 'u', 'i' or 'f'
-  bool swapped = false;  ///< bytes are in the other order
-  std::size_t value_bytes = 0;
-  std::uint32_t rows = 0, columns = 0;
-};
-
-Result<NpyHeader> parse_npy_header(std::string_view header) {
-  NpyHeader out;
+Result<NumberImage> parse_npy_header(std::string_view header) {
+  NumberImage out;
   const std::string_view type = npy_field(header, "descr", ",");  // '<u2'
   const std::string_view order = npy_field(header, "fortran_order", ",");
   std::string shape(npy_field(header, "shape", ")"));  // (480, 640
@@ -90,7 +86,7 @@ double value_at(const char* bytes, bool swapped) {
 
 using ReadValue = double (*)(const char*, bool);
 
-ReadValue reader_of(const NpyHeader& header) {
+ReadValue reader_of(const NumberImage& header) {
   if (header.kind == 'f') return header.value_bytes == 4 ? value_at<float> : value_at<double>;
   const bool is_signed = header.kind == 'i';
   switch (header.value_bytes) {
@@ -103,20 +99,8 @@ ReadValue reader_of(const NpyHeader& header) {
   }
 }
 
-Result<DepthFile> decode_npy(std::string_view bytes, double float_unit_m) {
+DepthFile depth_of(const NumberImage& header, std::string_view body, double float_unit_m) {
   static_assert(std::endian::native == std::endian::little);
-  if (bytes.size() < 12)
-    return fail(ErrorCode::kFormat, "damaged NPY array: the header is cut off");
-  const bool long_header = bytes[6] > 1;
-  const std::size_t begin = long_header ? 12 : 10;
-  const double length = long_header ? value_at<std::uint32_t>(bytes.data() + 8, false)
-                                    : value_at<std::uint16_t>(bytes.data() + 8, false);
-  if (length > double(bytes.size() - begin))
-    return fail(ErrorCode::kFormat, "damaged NPY array: the header is cut off");
-  TURNSCAN_ASSIGN(const NpyHeader header,
-                  parse_npy_header(bytes.substr(begin, std::size_t(length))));
-  const std::string_view body = bytes.substr(begin + std::size_t(length));
-  TURNSCAN_TRY(check_depth_size(header.columns, header.rows, header.value_bytes, body.size()));
   DepthFile file;
   file.floats = header.kind == 'f';
   file.eight_bits = header.value_bytes == 1;
@@ -129,6 +113,22 @@ Result<DepthFile> decode_npy(std::string_view bytes, double float_unit_m) {
     if (steps > kNoReturn && steps < kOutsideCrop) out.pixels[i] = std::uint16_t(steps);
   }
   return file;
+}
+
+Result<DepthFile> decode_npy(std::string_view bytes, double float_unit_m) {
+  if (bytes.size() < 12)
+    return fail(ErrorCode::kFormat, "damaged NPY array: the header is cut off");
+  const bool long_header = bytes[6] > 1;
+  const std::size_t begin = long_header ? 12 : 10;
+  const double length = long_header ? value_at<std::uint32_t>(bytes.data() + 8, false)
+                                    : value_at<std::uint16_t>(bytes.data() + 8, false);
+  if (length > double(bytes.size() - begin))
+    return fail(ErrorCode::kFormat, "damaged NPY array: the header is cut off");
+  TURNSCAN_ASSIGN(const NumberImage header,
+                  parse_npy_header(bytes.substr(begin, std::size_t(length))));
+  const std::string_view body = bytes.substr(begin + std::size_t(length));
+  TURNSCAN_TRY(check_depth_size(header.columns, header.rows, header.value_bytes, body.size()));
+  return depth_of(header, body, float_unit_m);
 }
 
 /// The next number of a PGM header; comments begin with #.
@@ -183,9 +183,13 @@ Result<DepthFile> decode_depth_png_file(std::string_view bytes, bool take_eight_
 Result<DepthFile> decode_depth_file(std::string_view bytes, const DepthFileOptions& options) {
   if (bytes.starts_with(kNpyMagic)) return decode_npy(bytes, options.float_unit_m);
   if (bytes.starts_with("P5")) return decode_pgm(bytes);
+  if (image::looks_like_tiff(bytes)) {
+    TURNSCAN_ASSIGN(const image::TiffNumbers tiff, image::decode_tiff_numbers(bytes));
+    return depth_of(tiff.header, tiff.values, options.float_unit_m);
+  }
   if (image::looks_like_png(bytes)) return decode_depth_png_file(bytes, options.eight_bits);
   return fail(ErrorCode::kUnsupported,
-              "this is neither a PNG, a PGM nor an NPY file; write depth as one of these");
+              "this is neither a PNG, a PGM, a TIFF nor an NPY file; write depth as one of these");
 }
 
 Result<DepthFile> read_depth_file(const std::filesystem::path& path,

@@ -178,7 +178,7 @@ Result<std::string> what_is_there(const fs::path& path) {
   }
   TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(path));
   if (names.empty()) return std::string("an empty folder");
-  for (const char* ending : {".npz", ".tiff", ".tif", ".exr"})
+  for (const char* ending : {".npz", ".exr"})
     if (any_ends_with(names, ending))
       return fmt::format("a folder of {} files (write depth as 16-bit PNG or NPY to import it)",
                          ending);

@@ -24,7 +24,7 @@ namespace {
 constexpr double kOffMiddle = 0.25;
 constexpr double kSameShape = 0.1;
 /// The most exact first.
-constexpr std::array<const char*, 3> kDepthEndings{".npy", ".pgm", ".png"};
+constexpr std::array<const char*, 5> kDepthEndings{".npy", ".tiff", ".tif", ".pgm", ".png"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -83,7 +83,7 @@ Result<DepthFolder> depth_images_in(const fs::path& folder) {
   std::stable_sort(out.names.begin(), out.names.end(), precedes);
   if (out.names.empty())
     return fail_at(out.images.string(), ErrorCode::kTooFewPoints,
-                   "there are no depth images (PNG, PGM or NPY)");
+                   "there are no depth images (PNG, PGM, TIFF or NPY)");
   return out;
 }
 
