@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <span>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/parallel.hpp>
 #include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
 #include <turnscan/turntable/detection/rim_estimate.hpp>
@@ -80,23 +83,26 @@ std::size_t wrong_pixels(const RimData& data, const RimState& state) {
   return wrong;
 }
 
+/// Climbs from the thicknesses, on all cores.
+std::vector<RimState> climbed(const RimData& data, const RimState& start,
+                              std::span<const double> thicknesses_m, int most) {
+  std::vector<RimState> out(thicknesses_m.size(), start);
+  parallel_for(out.size(), 1, [&](std::size_t i) {
+    out[i].model.thickness_m = thicknesses_m[i];
+    RimAscent ascent(data, out[i]);
+    ascent.climb(most);
+    out[i] = ascent.state();
+  });
+  return out;
+}
+
 /// The thickness determines which point of the near side is the rim, so several are tried. Their
 /// likelihoods are of different pixels, those about each outline, and cannot be compared.
 RimState best_thickness(const RimData& data, const RimModel& start) {
-  RimState best;
-  std::size_t least = std::numeric_limits<std::size_t>::max();
-  for (const double thickness : kThicknesses_m) {
-    RimState state;
-    state.model = start;
-    state.model.thickness_m = thickness;
-    RimAscent ascent(data, state);
-    ascent.climb(12);
-    const std::size_t wrong = wrong_pixels(data, ascent.state());
-    if (wrong >= least) continue;
-    least = wrong;
-    best = ascent.state();
-  }
-  return best;
+  const std::vector<RimState> tried = climbed(data, {start, {}}, kThicknesses_m, 12);
+  std::vector<std::size_t> wrong;
+  for (const RimState& state : tried) wrong.push_back(wrong_pixels(data, state));
+  return tried[std::size_t(std::min_element(wrong.begin(), wrong.end()) - wrong.begin())];
 }
 
 /// A maximum of the likelihood.
@@ -108,18 +114,12 @@ struct RimMode {
 /// Where the far side is not seen, a low wall and a rim nearer to the sensor look much alike.
 /// Climbs from each thickness to the nearest maximum; the best first.
 std::vector<RimMode> modes(const RimData& data, const RimState& start) {
+  std::vector<double> thicknesses_m{start.model.thickness_m};
+  std::copy_if(kThicknesses_m.begin(), kThicknesses_m.end(), std::back_inserter(thicknesses_m),
+               [](double thickness) { return thickness <= kThickestMode_m; });
   std::vector<RimMode> out;
-  const auto climb_from = [&](double thickness) {
-    RimState state = start;
-    state.model.thickness_m = thickness;
-    RimAscent ascent(data, state);
-    ascent.climb(15);
-    out.push_back(
-        {ascent.state(), log_likelihood_of_all(data, ascent.state().model, ascent.state().edge)});
-  };
-  climb_from(start.model.thickness_m);
-  for (const double thickness : kThicknesses_m)
-    if (thickness <= kThickestMode_m) climb_from(thickness);
+  for (const RimState& state : climbed(data, start, thicknesses_m, 15))
+    out.push_back({state, log_likelihood_of_all(data, state.model, state.edge)});
   std::stable_sort(out.begin(), out.end(), [](const RimMode& l, const RimMode& r) {
     return l.log_likelihood > r.log_likelihood;
   });
