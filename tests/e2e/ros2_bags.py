@@ -175,5 +175,8 @@ def db3(path, messages, compress=False):
 
 def metadata(names):
     files = "".join(f"    - {name}\n" for name in names)
+    told = "".join(f"    - path: {name.rsplit('/', 1)[-1]}\n      starting_time:\n"
+                   "        nanoseconds_since_epoch: 1\n      message_count: 3\n" for name in names)
     return ("rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n"
-            f"  relative_file_paths:\n{files}  topics_with_message_count:\n    - topic_metadata:\n        name: /d\n")
+            "  topics_with_message_count:\n    - topic_metadata:\n        name: /d\n"
+            f"  relative_file_paths:\n{files}  files:\n{told}")

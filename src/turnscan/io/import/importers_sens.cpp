@@ -77,6 +77,10 @@ class SensSequence : public FrameSequence {
     }
     if (auto good = decode_frame_color(bytes, frame); !good)
       return at_path(file_.path(), std::move(good).error());
+    if (sens_.jpeg_is_bgr) {
+      for (Rgb& pixel : frame.color.pixels) std::swap(pixel.r, pixel.b);
+      frame.color_jpeg.clear();  // others would show it with its colours exchanged
+    }
     const ColorImage& image = frame.color;
     if (image.width == int(sens_.color_width) && image.height == int(sens_.color_height)) return {};
     return fail_at(file_.path().string(), ErrorCode::kFormat,

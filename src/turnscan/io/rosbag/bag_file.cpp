@@ -29,6 +29,8 @@ Result<std::vector<fs::path>> parts_of(const fs::path& folder) {
   std::vector<fs::path> parts;
   std::error_code error;
   constexpr std::size_t kMaxMetadata = 16U << 20;
+  constexpr std::size_t kMaxParts = 1000;  // each is held open
+  bool listed = false;
   const fs::path list = folder / "metadata.yaml";
   if (fs::exists(list, error)) {
     TURNSCAN_ASSIGN(file::RandomAccessFile file, file::RandomAccessFile::open(list));
@@ -39,7 +41,13 @@ Result<std::vector<fs::path>> parts_of(const fs::path& folder) {
       std::string_view line = std::string_view(text).substr(at, end - at);
       at = end + 1;
       line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
-      if (!line.starts_with("- ")) continue;
+      if (!line.starts_with("- ")) {
+        // Since version 5, "files:" repeats the names as "- path: NAME".
+        if (line.find(':') != std::string_view::npos)
+          listed = line.starts_with("relative_file_paths:");
+        continue;
+      }
+      if (!listed) continue;
       line.remove_prefix(std::min(line.find_first_not_of(" \"'", 1), line.size()));
       line = line.substr(0, line.find_last_not_of(" \"'\r") + 1);
       // Older ones repeat the folder's name.
@@ -47,6 +55,9 @@ Result<std::vector<fs::path>> parts_of(const fs::path& folder) {
       if (is_part_name(name.string()) &&
           std::find(parts.begin(), parts.end(), folder / name) == parts.end())
         parts.push_back(folder / name);
+      if (parts.size() > kMaxParts)
+        return fail_at(list.string(), ErrorCode::kResourceLimit,
+                       "it lists more than {} files; import some of them at a time", kMaxParts);
     }
     if (!parts.empty()) return parts;
   }

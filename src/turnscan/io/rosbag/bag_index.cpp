@@ -9,6 +9,8 @@ namespace {
 
 // That a message takes: its place, and the time and number that are read of it.
 constexpr std::uint64_t kBytesHeld = 64;
+// Later times (after the year 2116) and those before 1970 are none; sums of two do not wrap around.
+constexpr std::int64_t kMaxTime_ns = std::int64_t(1) << 62;
 
 }  // namespace
 
@@ -39,6 +41,7 @@ Result<> BagIndex::add_message(const MessagePlace& place) {
                 kMaxMessages);
   TURNSCAN_TRY(budget_->hold(kBytesHeld));
   places_.push_back(place);
+  places_.back().time_ns = std::clamp<std::int64_t>(place.time_ns, 0, kMaxTime_ns);
   return {};
 }
 

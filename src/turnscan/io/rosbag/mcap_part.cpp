@@ -22,6 +22,8 @@ constexpr std::size_t kOpBytes = 9;           // an operation and the length of 
 constexpr std::size_t kMessageHead = 22;      // channel, number, two times
 constexpr std::size_t kRecordPiece = 64;      // most records' heads are shorter
 constexpr std::uint64_t kMaxNames = 1 << 20;  // of a schema or channel, in bytes
+constexpr std::size_t kMaxType = 256;         // each channel of a schema gets a copy of its name
+constexpr std::uint64_t kMaxIndex = 6 + 16 * std::uint64_t(BagIndex::kMaxMessages);
 
 /// A record, or in the file its beginning.
 struct McapRecord {
@@ -101,7 +103,12 @@ Result<> McapPart::take(const McapRecord& record, std::uint64_t at, BagIndex& in
   next = at + record.size;
   const auto content = [&]() -> Result<std::string> {
     // Of a schema, a long definition follows its name.
-    if (record.op == McapOp::kMessageIndex) return file().read(at, record.size);
+    if (record.op == McapOp::kMessageIndex) {
+      if (record.size > kMaxIndex)
+        return fail(ErrorCode::kResourceLimit, "an index of {} bytes is longer than can be read",
+                    record.size);
+      return file().read(at, record.size);
+    }
     return file().read(at, std::min(record.size, kMaxNames));
   };
   switch (record.op) {
@@ -138,7 +145,7 @@ Result<> McapPart::take_schema(std::string_view content) {
   const auto id = fields.number<std::uint16_t>();
   const std::string_view name = fields.text();
   TURNSCAN_TRY(fields.check("of a schema"));
-  schemas_.emplace(id, name);
+  schemas_.emplace(id, name.substr(0, kMaxType));
   return {};
 }
 

@@ -44,14 +44,15 @@ std::string escaped(const std::string& path) {
   return out;
 }
 
-/// Nothing that the file defines beside its tables (views, triggers, ...) is run.
+/// Nothing that the file defines beside its tables (views, triggers, ...) is run; see list() for
+/// virtual tables and generated columns.
 Result<Database> opened(const std::filesystem::path& path) {
   std::error_code error;
   // A bag that was not closed has its last messages in a journal beside it. Without one, nothing is
   // written beside the file, so that it may lie where nothing can be.
   const bool journal = std::filesystem::exists(path.string() + "-wal", error);
   const std::string uri =
-      fmt::format("file:{}?{}", escaped(std::filesystem::absolute(path, error).string()),
+      fmt::format("file://{}?{}", escaped(std::filesystem::absolute(path, error).string()),
                   journal ? "mode=ro" : "immutable=1");
   sqlite3* made = nullptr;
   const int state = sqlite3_open_v2(
@@ -93,8 +94,11 @@ class SqlitePart : public BagPart {
 template <class Row>
 Result<> SqlitePart::each(const char* query, const BagIndex& index, Row row) const {
   sqlite3_stmt* made = nullptr;
-  if (sqlite3_prepare_v2(database_.get(), query, -1, &made, nullptr) != SQLITE_OK)
+  if (sqlite3_prepare_v3(database_.get(), query, -1, SQLITE_PREPARE_NO_VTAB, &made, nullptr) !=
+      SQLITE_OK) {
+    TURNSCAN_TRY(index.budget().state());  // it may have ended the reading of the schema
     return refused(database_.get());
+  }
   const Statement statement(made);
   int state = SQLITE_ROW;
   while ((state = sqlite3_step(made)) == SQLITE_ROW) TURNSCAN_TRY(row(made));
@@ -109,6 +113,13 @@ std::string text_at(sqlite3_stmt* row, int column) {
 }
 
 Result<> SqlitePart::list(BagIndex& index) {
+  // Before the first query, which reads the schema: its pages may name each other again and again.
+  sqlite3_progress_handler(
+      database_.get(), kOperations,
+      [](void* budget) {
+        return static_cast<const file::ReadBudget*>(budget)->unpack(kCharged) ? 0 : 1;
+      },
+      const_cast<file::ReadBudget*>(&index.budget()));
   bool tables = false;
   TURNSCAN_TRY(each(
       "SELECT count(*) FROM sqlite_master WHERE type='table' AND name IN ('topics','messages')",
@@ -120,19 +131,30 @@ Result<> SqlitePart::list(BagIndex& index) {
     return fail(ErrorCode::kUnsupported,
                 "this SQLite database is no ROS 2 bag; of RTAB-Map's, import what rtabmap-export "
                 "writes");
-  sqlite3_progress_handler(
-      database_.get(), kOperations,
-      [](void* budget) {
-        return static_cast<const file::ReadBudget*>(budget)->unpack(kCharged) ? 0 : 1;
-      },
-      const_cast<file::ReadBudget*>(&index.budget()));
-  TURNSCAN_TRY(each(
-      "SELECT id, name, type, serialization_format FROM topics", index, [&](sqlite3_stmt* row) {
-        return index.add_connection({number_, std::uint32_t(sqlite3_column_int64(row, 0)),
-                                     text_at(row, 1), text_at(row, 2), text_at(row, 3)});
-      }));
-  const auto listed =
-      each("SELECT id, topic_id, timestamp FROM messages", index, [&](sqlite3_stmt* row) {
+  // A generated column is an expression, of which one step can take as long as the file wants.
+  for (const char* columns : {"PRAGMA table_xinfo(topics)", "PRAGMA table_xinfo(messages)"})
+    TURNSCAN_TRY(each(columns, index, [&](sqlite3_stmt* row) -> Result<> {
+      constexpr int kHidden = 6;
+      if (sqlite3_column_int(row, kHidden) == 0) return {};
+      return fail(ErrorCode::kUnsupported,
+                  "a column of this SQLite database is computed; rosbag2 writes none such");
+    }));
+  const auto topics =
+      each("SELECT id, name, type, serialization_format FROM topics", index,
+           [&](sqlite3_stmt* row) -> Result<> {
+             std::uint64_t bytes = 0;  // rows may share the pages of a long text
+             for (int column = 1; column <= 3; ++column)
+               bytes += std::uint64_t(sqlite3_column_bytes(row, column));
+             TURNSCAN_TRY(index.budget().unpack(bytes));
+             return index.add_connection({number_, std::uint32_t(sqlite3_column_int64(row, 0)),
+                                          text_at(row, 1), text_at(row, 2), text_at(row, 3)});
+           });
+  if (!topics) return topics;
+  const auto listed = each(
+      "SELECT id, topic_id, timestamp FROM messages", index, [&](sqlite3_stmt* row) -> Result<> {
+        for (int column = 0; column < 3; ++column)
+          if (sqlite3_column_type(row, column) != SQLITE_INTEGER)
+            return fail(ErrorCode::kFormat, "a message has no number, topic or time");
         const auto id = std::uint64_t(sqlite3_column_int64(row, 0));
         return index.add_message({sqlite3_column_int64(row, 2),
                                   std::uint32_t(sqlite3_column_int64(row, 1)), number_,
@@ -167,6 +189,9 @@ Result<Payload> SqlitePart::read(const MessagePlace& place, std::size_t most,
     const std::unique_ptr<sqlite3_blob, CloseBlob> blob(made);
     if (state != SQLITE_OK) return refused(database_.get());
     const auto size = std::size_t(sqlite3_blob_bytes(made));
+    if (size > Bag::kMaxMessageBytes)
+      return fail(ErrorCode::kResourceLimit, "a message of {} bytes is longer than can be read",
+                  size);
     std::array<char, 4> begin{};
     const bool looked = size >= begin.size() &&
                         sqlite3_blob_read(made, begin.data(), int(begin.size()), 0) == SQLITE_OK;

@@ -25,6 +25,7 @@ Result<> describe_images(const file::RandomAccessFile& file, const FramePlace& f
     h.color_packing = ColorPacking::kRaw;
     if (decode_frame_color(bytes, frame)) {
       h.color_packing = ColorPacking::kJpeg;
+      h.jpeg_is_bgr = true;
       h.depth_width = std::uint32_t(frame.color.width);
       h.depth_height = std::uint32_t(frame.color.height);
     } else if (first.color_bytes != 3ULL * kUsualWidth * kUsualHeight) {

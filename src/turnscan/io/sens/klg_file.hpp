@@ -3,7 +3,8 @@
 // src/Logger2.h): the number of frames (32 bits), then for each frame its time (64 bits,
 // microseconds), the bytes of depth and of colour (32 bits each), depth in millimetres (zlib, or as
 // it is) and colour registered to it (JPEG, or RGB as it is). Little-endian. The size of the images
-// is not stated.
+// is not stated. Logger2 gives its RGB to OpenCV's encoder as if it were BGR, and ElasticFusion
+// (GUI/src/Tools/JPEGLoader.h) exchanges red and blue when it reads a JPEG file.
 
 #include <turnscan/io/sens/sens_file.hpp>
 

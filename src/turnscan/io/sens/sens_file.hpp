@@ -24,6 +24,7 @@ struct Header {
   Matrix color_intrinsics{}, color_extrinsics{};  ///< extrinsics: camera to the base frame
   Matrix depth_intrinsics{}, depth_extrinsics{};
   ColorPacking color_packing = ColorPacking::kUnknown;
+  bool jpeg_is_bgr = false;  ///< red and blue are exchanged in JPEG files
   DepthPacking depth_packing = DepthPacking::kUnknown;
   std::uint32_t color_width = 0, color_height = 0;
   std::uint32_t depth_width = 0, depth_height = 0;

@@ -66,7 +66,7 @@ std::pair<Pairs, Pairs> text_order(std::size_t n, std::size_t first) {
   return out;
 }
 
-/// Shares of the pixels that change from one frame to the other.
+/// Shares of the pixels that change from one frame to the other; empty if a pair has too few.
 Result<std::vector<double>> changes(const FrameSequence& sequence,
                                     const std::vector<std::size_t>& usable, const Pairs& pairs,
                                     double beyond_noise, const RunContext& context) {
@@ -79,8 +79,11 @@ Result<std::vector<double>> changes(const FrameSequence& sequence,
                              return {};
                            }));
   std::vector<double> out;
-  for (std::size_t i = 0; i < images.size(); i += 2)
-    out.push_back(share_above(differences(images[i], images[i + 1], false), beyond_noise));
+  for (std::size_t i = 0; i < images.size(); i += 2) {
+    const std::vector<int> values = differences(images[i], images[i + 1], false);
+    if (values.size() < kMinPixels) return std::vector<double>();
+    out.push_back(share_above(values, beyond_noise));
+  }
   return out;
 }
 
@@ -101,8 +104,9 @@ Result<> look_at_succession(const FrameSequence& sequence, std::uint32_t number,
                     changes(sequence, usable, neighbours, beyond_noise, context));
     TURNSCAN_ASSIGN(const auto of_successive,
                     changes(sequence, usable, successive, beyond_noise, context));
-    if (*std::max_element(of_successive.begin(), of_successive.end()) >=
-        *std::min_element(of_neighbours.begin(), of_neighbours.end()))
+    if (of_neighbours.empty() || of_successive.empty() ||
+        *std::max_element(of_successive.begin(), of_successive.end()) >=
+            *std::min_element(of_neighbours.begin(), of_neighbours.end()))
       continue;
     out.push_back({Plausibility::kImplausible,
                    fmt::format("the images of sensor {} are in the order of numbers that were "

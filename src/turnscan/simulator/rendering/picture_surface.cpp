@@ -8,6 +8,9 @@ namespace turnscan::rendering {
 namespace {
 
 constexpr float kCosCrease = 0.766f;  // 40 deg
+/// Triangles about a vertex, beyond which it has no normal of its own: each pixel beside it adds
+/// them up, and caps of cylinders have hundreds.
+constexpr std::uint32_t kMaxAround = 10000;
 
 /// Length is twice the area.
 Vec3f area_normal(const TriangleMesh& mesh, std::uint32_t triangle) {
@@ -31,6 +34,7 @@ PictureSurface::PictureSurface(const TriangleMesh& mesh, bool smooth) : mesh_(me
 }
 
 Vec3f PictureSurface::corner_normal(std::uint32_t vertex, const Vec3f& face_normal) const {
+  if (first_[vertex + 1] - first_[vertex] > kMaxAround) return face_normal;
   Vec3f sum = Vec3f::Zero();
   for (std::uint32_t i = first_[vertex]; i < first_[vertex + 1]; ++i) {
     const Vec3f n = area_normal(mesh_, around_[i]);
