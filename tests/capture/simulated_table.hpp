@@ -40,7 +40,10 @@ enum class BoardFault {
   kSilent,      // answers nothing any more
   kStops,       // stops by itself without a word
   kDamagesOne,  // Marlin: hears a damaged line once, and asks for it again
-  kBusy         // Marlin: says that it is busy, once, and answers after that
+  kBusy,        // Marlin: says that it is busy, once, and answers after that
+  kBlind,       // Marlin: built without M114_REALTIME, it only says where its motion ends
+  kNoLimits,    // Marlin: built without limits, it does not know M211
+  kTalkative    // Marlin: lists a hundred settings before its first answer
 };
 
 enum class BoardKind {
@@ -371,15 +374,21 @@ class SimulatedTable {
       begin_fault();
       return;
     }
-    if (command == "M114")
-      answer("X:" + decimal(speed_ != 0.0 ? target_ : angle_, 2) +
-             " Y:0.00 Z:0.00 E:0.00 Count X:" +
-             std::to_string(std::lround(angle_ * kStepsPerUnit)) + " Y:0 Z:0");
-    else if (command == "M410")
+    if (fault_ == BoardFault::kTalkative && std::exchange(damage_, false))
+      for (int i = 0; i < 100; ++i) send(line("echo:  M421 I0 J" + std::to_string(i) + " Z0.0"));
+    const bool asks_end = command == "M114";
+    if (asks_end || command == "M114 R") {
+      // Distance and steps are of the same place: of the end of the motion, unless R is understood.
+      const bool end = asks_end || fault_ == BoardFault::kBlind;
+      const double x = end && speed_ != 0.0 ? target_ : angle_;
+      answer("X:" + decimal(x, 2) + " Y:0.00 Z:0.00 E:0.00 Count X:" +
+             std::to_string(std::lround(x * kStepsPerUnit)) + " Y:0 Z:0");
+    } else if (command == "M410")
       stand();
     else if (command == "M92")
       send(line("echo:  M92 X80.00 Y80.00 Z400.00 E93.00"));
-    else if (command != "G21" && command != "G91" && command != "M211 S0" && command != "M110 N0")
+    else if (command != "G21" && command != "G91" && command != "M110 N0" &&
+             (command != "M211 S0" || fault_ == BoardFault::kNoLimits))
       answer("echo:Unknown command: \"" + command + "\"");
     answer("ok");
   }

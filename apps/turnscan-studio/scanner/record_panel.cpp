@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -196,8 +197,8 @@ std::optional<RecordingRequest> RecordPanel::request() {
   request.options.resume = resumes_;
   if (!request.motor_port.empty()) request.options.stops = motor_->stops();
   QSettings settings;
-  settings.setValue(kRunning, folder);
-  settings.sync();  // the program may be killed
+  settings.setValue(kRunning, QFileInfo(folder).absoluteFilePath());  // wherever the next starts
+  settings.sync();                                                    // the program may be killed
   return request;
 }
 

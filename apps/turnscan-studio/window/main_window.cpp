@@ -273,7 +273,8 @@ void MainWindow::offer_unfinished_recording() {
   const QString folder = RecordPanel::unfinished();
   if (folder.isEmpty()) return;
   const auto recording = Recording::open(folder.toStdString());
-  const int frames = recording ? int(recording->frames().size()) : 0;
+  if (!recording) return;  // it was ended before there was anything to go on with
+  const int frames = int(recording->frames().size());
   QMessageBox question(
       QMessageBox::Question, tr("Go on with the recording?"),
       tr("The last session ended while it recorded. %1 has %n frame(s).", nullptr, frames)

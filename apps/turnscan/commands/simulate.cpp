@@ -112,6 +112,9 @@ class SimulateCommand : public Command {
     if (!sweep_.empty() && (!request_.recording.empty() || !request_.coverage.empty()))
       return fail(ErrorCode::kInvalidOption,
                   "--sweep: it compares scans and makes none; leave out --out and --coverage");
+    if (!sweep_.empty() && (!request_.report.empty() || request_.samples))
+      return fail(ErrorCode::kInvalidOption,
+                  "--sweep: it only prints the coverage; leave out --report and --samples");
     if (!sweep_.empty() || !request_.recording.empty() || !request_.coverage.empty()) return {};
     return fail(ErrorCode::kInvalidOption,
                 "--out: missing; give the folder to make, or --coverage FILE.ply");

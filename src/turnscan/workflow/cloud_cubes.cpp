@@ -98,7 +98,7 @@ Result<TriangleMesh> cubes_of(const PointCloud& cloud, double min_weight,
   for (std::uint32_t i = 0; i < cloud.size(); ++i)
     if (cloud.weights.empty() || cloud.weights[i] >= min_weight) shown.push_back(i);
   if (shown.empty())
-    return fail(ErrorCode::kTooFewPoints, "none of {} points has a weight of {:g}; lower it",
+    return fail(ErrorCode::kTooFewPoints, "none of {} points has a weight of {:g} or more",
                 cloud.size(), min_weight);
   const Lattice lattice = lattice_of(cloud.points);
   TURNSCAN_TRY(context.check());

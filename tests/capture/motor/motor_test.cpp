@@ -194,14 +194,29 @@ TEST(Motor, ABoardThatNeverAnswersIsNotOpened) {
 
 /// What a board says of itself, or of a line, that does no harm.
 TEST(Motor, MarlinAsksForADamagedLineAndIsGivenTimeWhenItIsBusy) {
-  for (const BoardFault fault : {BoardFault::kDamagesOne, BoardFault::kBusy}) {
+  for (const BoardFault fault : {BoardFault::kDamagesOne, BoardFault::kBusy, BoardFault::kNoLimits,
+                                 BoardFault::kTalkative}) {
+    MotorOptions options = quick();
+    options.protocol = MotorProtocol::kMarlin;  // nothing else is said to it first
     SimulatedTable table(BoardKind::kMarlin, fault);
-    auto motor = Motor::open(table.port(), quick(), RunContext());
+    auto motor = Motor::open(table.port(), options, RunContext());
     ASSERT_TRUE(motor) << motor.error().text();
     const auto done = motor->rotate(30.0 * kDeg, 80.0 * kDeg, RunContext());
     ASSERT_TRUE(done) << done.error().text();
     EXPECT_NEAR(table.angle_deg(), 30.0, 0.01);
   }
+}
+
+TEST(Motor, MarlinThatCannotSayWhereItIsWhileItTurnsIsStopped) {
+  SimulatedTable table(BoardKind::kMarlin, BoardFault::kBlind);
+  auto motor = Motor::open(table.port(), quick(), RunContext());
+  ASSERT_TRUE(motor) << motor.error().text();
+  const auto done = motor->rotate(90.0 * kDeg, 20.0 * kDeg, RunContext());
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, ErrorCode::kUnsupported);
+  EXPECT_THAT(done.error().message, HasSubstr("M114_REALTIME"));
+  EXPECT_TRUE(table.stands_within(0.3));
+  EXPECT_LT(table.angle_deg(), 80.0);
 }
 
 TEST(Motor, ABoardIsFoundWithoutItsGreetingAndAsItsProtocolIsStated) {

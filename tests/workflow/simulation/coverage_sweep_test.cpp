@@ -15,6 +15,10 @@ TEST(CoverageSweep, ReadsFromToAndStepWithTheirUnits) {
   EXPECT_NEAR(range->values.front(), -EIGEN_PI / 4, 1e-12);
   EXPECT_NEAR(range->values.back(), EIGEN_PI / 4, 1e-12);
   EXPECT_EQ(parse_sweep_range("distance=0.5m..0.7m/10cm", {})->values.size(), 3u);
+  EXPECT_EQ(parse_sweep_range("roll=-30deg..30deg/10deg", {})->values[3], 0.0);
+  const auto speeds = parse_sweep_range("speed=10deg/s..30deg/s/5deg/s", {});
+  ASSERT_TRUE(speeds) << speeds.error().text();
+  EXPECT_EQ(speeds->values.size(), 5u);
 }
 
 TEST(CoverageSweep, RefusesWhatIsNoRangeOfANumberOfTheScene) {

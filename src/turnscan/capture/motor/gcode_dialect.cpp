@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <turnscan/capture/motor/gcode_dialect.hpp>
 #include <turnscan/core/units.hpp>
 
@@ -31,29 +30,25 @@ std::optional<GcodeStatus> grbl_status(std::string_view line, double /*steps_per
   return GcodeStatus{std::string(line.substr(0, line.find_first_of("|,"))), *x};
 }
 
-/// "X:10.00 Y:0.00 Z:0.00 E:0.00 Count X:800 Y:0 Z:0": where the queued motion ends, and the steps
-/// done so far. They differ while the table turns.
+/// "X:10.00 Y:0.00 Z:0.00 E:0.00 Count X:800 Y:0 Z:0": to M114 R, if Marlin was built with
+/// M114_REALTIME, the steps done so far; to M114 those at the end of the queued motion.
 std::optional<GcodeStatus> marlin_status(std::string_view line, double steps_per_unit) {
   if (!line.starts_with("X:") || !(steps_per_unit > 0.0)) return std::nullopt;
-  const auto end = number_behind(line, "X:");
   const auto count = number_behind(line, "Count X:");
-  if (!end || !count) return std::nullopt;
-  constexpr double kRounded = 0.005;  // two decimals
-  const double x = *count / steps_per_unit;
-  const bool there = std::abs(*end - x) < kRounded + 1.5 / steps_per_unit;
-  return GcodeStatus{there ? "Idle" : "Run", x};
+  if (!count) return std::nullopt;
+  return GcodeStatus{"Idle", *count / steps_per_unit};
 }
 
 constexpr std::array<std::string_view, 2> kGrblSetup{"G21", "G91"};
 constexpr std::array<std::string_view, 1> kGrblRefusals{"error"};
-// Marlin would not turn beyond its axis' end; M92 reports the steps that M114 counts.
-constexpr std::array<std::string_view, 4> kMarlinSetup{"G21", "G91", "M211 S0", "M92"};
+// M92 reports the steps per unit, by which M114 counts.
+constexpr std::array<std::string_view, 3> kMarlinSetup{"G21", "G91", "M92"};
 constexpr std::array<std::string_view, 2> kMarlinRefusals{"Error:", "echo:Unknown command"};
 
 constexpr GcodeDialect grbl_like(MotorProtocol protocol, std::string_view name,
                                  std::string_view greeting, std::string_view greeting_part) {
-  return {protocol, name, greeting,   greeting_part, "?",           false,      "!",
-          "\x18",   "$X", kGrblSetup, "ALARM",       kGrblRefusals, grbl_status};
+  return {protocol,   name, greeting, greeting_part, "?",        "", false, "!", "\x18", "$X",
+          kGrblSetup, "",   "ALARM",  kGrblRefusals, grbl_status};
 }
 
 constexpr std::array kDialects{
@@ -61,8 +56,10 @@ constexpr std::array kDialects{
     grbl_like(MotorProtocol::kGrbl, "GRBL", "Grbl ", "for help]"),
     grbl_like(MotorProtocol::kGrbl, "GRBL", "Horus ", "for help]"),
     grbl_like(MotorProtocol::kGrblHal, "grblHAL", "GrblHAL ", "for help]"),
-    GcodeDialect{MotorProtocol::kMarlin, "Marlin", "start", "", "M114", true, "M410\n", "", "",
-                 kMarlinSetup, "Error:Printer halted", kMarlinRefusals, marlin_status},
+    // Without M211 it would not turn beyond its axis' end.
+    GcodeDialect{MotorProtocol::kMarlin, "Marlin", "start", "", "M114 R", "M114", true, "M410\n",
+                 "", "", kMarlinSetup, "M211 S0", "Error:Printer halted", kMarlinRefusals,
+                 marlin_status},
 };
 
 }  // namespace

@@ -22,13 +22,17 @@ struct GcodeDialect {
   /// Asks for state and position. If commands are numbered lines this is one, answered by "ok" as
   /// well; else a single byte, answered by the status alone.
   std::string_view query;
+  /// Asks where the queued motion ends: the table stands if it is there. Empty: the status says
+  /// whether it stands.
+  std::string_view query_end;
   /// Commands are numbered and have a checksum: the board asks for those that were damaged.
   bool numbered;
   /// Stops the table at once. Then reset, if there is one, discards the rest of the motion, and is
   /// answered by the greeting.
   std::string_view hold, reset;
   std::string_view unlock;                  ///< leaves the state "Alarm"
-  std::span<const std::string_view> setup;  /// millimetres, relative distances, no limits
+  std::span<const std::string_view> setup;  ///< millimetres, relative distances
+  std::string_view no_limits;               ///< boards without limits may refuse it; empty: none
   std::string_view alarm;                   ///< how a message begins after which nothing is valid
   std::span<const std::string_view> refusals;  ///< how an answer to a command begins
   /// nullopt: no status. steps_per_unit: of axis X, as the board said; 0: it did not.

@@ -11,8 +11,8 @@ inline constexpr double kSpinAhead_s = 2.0;
 inline constexpr double kStopTimeout_s = 5.0;
 inline constexpr int kHaltTries = 3;
 /// Maximum number of lines read while waiting for an answer; a board that sends more is flooding
-/// the port.
-inline constexpr std::size_t kMaxLines = 50;
+/// the port. Marlin lists its settings when it starts: a hundred lines if it levels a bed.
+inline constexpr std::size_t kMaxLines = 150;
 
 /// Angle in degrees in the board's own direction.
 struct BoardStatus {

@@ -1,6 +1,7 @@
 // Boards that understand G-code, in one of the dialects of gcode_dialect.hpp: lines, each answered
 // by "ok" or a refusal, which queue motion.
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -15,6 +16,8 @@ namespace {
 /// A spin is sent in pieces of this duration; the board joins them.
 constexpr double kPiece_s = 0.5;
 constexpr auto kStopPoll = std::chrono::milliseconds(30);
+/// Waited after a first move that may have ended before the board was asked.
+constexpr auto kUnseenMotion = std::chrono::milliseconds(500);
 constexpr double kQuiet_s = 0.05;  ///< a board may repeat its first line within this time
 
 /// Maximum number of times that a command is repeated because the board asks for it.
@@ -49,6 +52,10 @@ class GcodeBoard : public MotorBoard {
       if (now.state.starts_with("Alarm")) TURNSCAN_TRY(command(dialect_.unlock, timeout_s_));
     }
     for (const std::string_view line : dialect_.setup) TURNSCAN_TRY(command(line, timeout_s_));
+    if (!dialect_.no_limits.empty()) {
+      const auto done = command(dialect_.no_limits, timeout_s_);
+      if (!done && !refused_) return done;
+    }
     if (dialect_.numbered && !(steps_per_unit_ > 0.0))
       return fail(ErrorCode::kUnsupported,
                   "the board does not report its steps per unit (M92), by which it counts: {} 2.0 "
@@ -100,9 +107,11 @@ class GcodeBoard : public MotorBoard {
   }
 
   Result<> move(double deg, double deg_per_s) override {
-    return command(
+    const auto begin = Clock::now();
+    TURNSCAN_TRY(command(
         fmt::format("G1X{:.4f}F{:.3f}", deg * units_per_deg_, deg_per_s * units_per_deg_ * 60.0),
-        timeout_s_);
+        timeout_s_));
+    return see_motion(begin, std::abs(deg) / deg_per_s);
   }
 
   /// A hold decelerates without losing steps; the reset then discards the rest of the motion.
@@ -152,19 +161,38 @@ class GcodeBoard : public MotorBoard {
     if (!dialect_.numbered) return port_.write(dialect_.hold);
     // Begins with a line end, so that half a command does not swallow it.
     TURNSCAN_TRY(port_.write(fmt::format("\n{}", dialect_.hold)));
-    return settle();
+    return settle(timeout_s_);
   }
 
   /// Reads until the board is quiet: what it answers to lines without a number cannot be told
-  /// apart.
-  Result<> settle() {
+  /// apart. ok_s: time in which an "ok" must come, which else would answer the next command.
+  Result<> settle(double ok_s = 0.0) {
+    const auto begin = Clock::now();
+    bool ok = false;
     for (std::size_t lines = 0; lines < kMaxLines; ++lines) {
-      TURNSCAN_ASSIGN(const auto line, port_.read_line(kQuiet_s));
+      const double wait_s = ok ? kQuiet_s : std::max(kQuiet_s, ok_s - seconds_since(begin));
+      TURNSCAN_ASSIGN(const auto line, port_.read_line(wait_s));
       if (!line) return {};
+      ok |= line->starts_with("ok");
       TURNSCAN_TRY(take_unasked(*line));
       strange_ = *line;
     }
     return without_end("nothing");
+  }
+
+  /// A board that cannot say where it is while it turns seems to stand, and must not be believed
+  /// that it has arrived. begin: when it was told to turn.
+  Result<> see_motion(Clock::time_point begin, double duration_s) {
+    if (dialect_.query_end.empty() || motion_seen_) return {};
+    TURNSCAN_TRY(query());
+    if (motion_seen_) return {};
+    if (seconds_since(begin) < duration_s)
+      return fail(ErrorCode::kUnsupported,
+                  "the board does not report where the table is while it turns: {} 2.0.6 or newer "
+                  "is needed, built with M114_REALTIME",
+                  dialect_.name);
+    std::this_thread::sleep_for(kUnseenMotion);
+    return {};
   }
 
   Result<> halted() {
@@ -233,6 +261,7 @@ class GcodeBoard : public MotorBoard {
     TURNSCAN_TRY(port_.write(sent + "\n"));
     strange_.clear();
     status_.reset();
+    refused_ = false;
     std::string refusal;
     int repeats = 0;
     bool again = false;
@@ -242,10 +271,7 @@ class GcodeBoard : public MotorBoard {
       TURNSCAN_ASSIGN(const auto line, port_.read_line(until_s - seconds_since(begin)));
       if (!line) return no_answer(text);
       if (*line == "ok" || (dialect_.numbered && line->starts_with("ok "))) {
-        if (!again)
-          return refusal.empty()
-                     ? Result<>()
-                     : fail(ErrorCode::kIo, "the table refused '{}': {}", text, shown(refusal));
+        if (!again) return refusal.empty() ? Result<>() : refused(text, refusal);
         if (++repeats > kRepeats)
           return fail(ErrorCode::kIo, "the table asks for '{}' again and again; check its cable",
                       text);
@@ -258,12 +284,12 @@ class GcodeBoard : public MotorBoard {
       if (dialect_.numbered && (line->starts_with("Resend:") || line->starts_with("rs "))) {
         again = true;
       } else if (dialect_.numbered && line->find("busy:") != std::string::npos) {
-        until_s = std::min(seconds_since(begin) + std::max(kBusy_s, timeout_s), kStopTimeout_s);
+        const double longer_s = seconds_since(begin) + std::max(kBusy_s, timeout_s);
+        until_s = std::max(until_s, std::min(longer_s, kStopTimeout_s));
       } else if (refuses(*line)) {
         refusal = *line;
         // Only numbered lines have an end behind their refusal.
-        if (!dialect_.numbered)
-          return fail(ErrorCode::kIo, "the table refused '{}': {}", text, shown(refusal));
+        if (!dialect_.numbered) return refused(text, refusal);
       } else if (auto status = dialect_.status_in(*line, steps_per_unit_)) {
         status_ = std::move(status);
       } else if (!line->starts_with('[')) {
@@ -273,16 +299,31 @@ class GcodeBoard : public MotorBoard {
     return without_end(text);
   }
 
+  Result<> refused(std::string_view text, std::string_view refusal) {
+    refused_ = true;
+    return fail(ErrorCode::kIo, "the table refused '{}': {}", text, shown(refusal));
+  }
+
   bool refuses(std::string_view line) const {
     return std::any_of(dialect_.refusals.begin(), dialect_.refusals.end(),
                        [&](std::string_view word) { return line.starts_with(word); });
   }
 
+  Result<GcodeStatus> asked(std::string_view question) {
+    TURNSCAN_TRY(command(question, timeout_s_));
+    if (!status_) return no_answer(question);
+    return *status_;
+  }
+
   Result<GcodeStatus> query() {
     if (dialect_.numbered) {
-      TURNSCAN_TRY(command(dialect_.query, timeout_s_));
-      if (!status_) return no_answer(dialect_.query);
-      return *status_;
+      TURNSCAN_ASSIGN(GcodeStatus now, asked(dialect_.query));
+      TURNSCAN_ASSIGN(const GcodeStatus end, asked(dialect_.query_end));
+      if (std::abs(end.x - now.x) * steps_per_unit_ > 1.5) {  // steps
+        now.state = "Run";
+        motion_seen_ = true;
+      }
+      return now;
     }
     TURNSCAN_TRY(drain());
     TURNSCAN_TRY(port_.write(dialect_.query));
@@ -308,6 +349,8 @@ class GcodeBoard : public MotorBoard {
   std::string name_;
   std::string strange_;  ///< the last line received instead of an answer
   bool resetting_ = false;
+  bool refused_ = false;      ///< the last command, by the board
+  bool motion_seen_ = false;  ///< the board has said that the table was on its way
   double spin_deg_s_ = 0.0;
   double sent_deg_ = 0.0;  ///< end position of the pieces sent so far
   std::optional<double> last_x_;

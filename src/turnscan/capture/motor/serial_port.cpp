@@ -27,6 +27,8 @@ namespace {
 
 constexpr std::size_t kLongestLine = 240;
 constexpr int kWriteTimeout_ms = 500;
+/// Time for the rest of a line that has begun.
+constexpr auto kLongestTail = std::chrono::milliseconds(300);
 constexpr int kConnectTimeout_ms = 3000;
 constexpr std::string_view kNetwork = "tcp:";
 
@@ -216,8 +218,9 @@ Result<SerialPort> SerialPort::open(const std::string& name, int baud) {
 Result<> SerialPort::write(std::string_view bytes) {
   while (!bytes.empty()) {
     pollfd wait{state_->descriptor, POLLOUT, 0};
-    if (::poll(&wait, 1, kWriteTimeout_ms) <= 0 || (wait.revents & POLLOUT) == 0)
-      return state_->lost();
+    const int ready = ::poll(&wait, 1, kWriteTimeout_ms);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0 || (wait.revents & POLLOUT) == 0) return state_->lost();
     const auto done = state_->network
                           ? ::send(state_->descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL)
                           : ::write(state_->descriptor, bytes.data(), bytes.size());
@@ -235,6 +238,9 @@ Result<std::optional<std::string>> SerialPort::read_line(double timeout_s) {
     TURNSCAN_ASSIGN(const bool came,
                     state_->receive(static_cast<int>(std::max<long>(0, left.count() + 1))));
     if (!came && Clock::now() >= end) return std::optional<std::string>();
+    // Line ends alone may come for ever.
+    if (state_->lines.empty() && Clock::now() >= end + kLongestTail)
+      return std::optional<std::string>();
   }
   std::string line = std::move(state_->lines.front());
   state_->lines.pop_front();

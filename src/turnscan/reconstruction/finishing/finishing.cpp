@@ -207,10 +207,10 @@ Result<> finish_object(const FinishOptions& options, const std::vector<HalfSpace
   if (options.smallest_part_m > 0.0) {
     TURNSCAN_ASSIGN(const std::size_t parts, drop_small_parts(object, options.smallest_part_m));
     if (parts > 0)
-      object.notes.push_back(fmt::format(
-          "{} smaller than {} dropped",
-          parts == 1 ? std::string("one part was") : fmt::format("{} parts were", parts),
-          length_text(options.smallest_part_m)));
+      object.notes.push_back(
+          fmt::format("{} smaller than {} {} dropped",
+                      parts == 1 ? std::string("one part") : fmt::format("{} parts", parts),
+                      length_text(options.smallest_part_m), parts == 1 ? "was" : "were"));
   }
   object.check = check_mesh(object.mesh);
   if (!object.evidence.empty()) object.invented_area_m2 = invented_area(object);

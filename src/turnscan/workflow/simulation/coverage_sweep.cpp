@@ -33,9 +33,9 @@ std::string best_text(const SweepRange& range, const std::vector<SweptCoverage>&
 }  // namespace
 
 Result<SweepRange> parse_sweep_range(const std::string& text, SceneDescription scene) {
-  const std::size_t equals = text.find('='), dots = text.find(".."), slash = text.rfind('/');
-  if (equals == std::string::npos || dots == std::string::npos || slash == std::string::npos ||
-      !(equals < dots && dots < slash))
+  const std::size_t equals = text.find('='), dots = text.find("..");
+  std::size_t slash = dots == std::string::npos ? dots : text.find('/', dots);
+  if (equals == std::string::npos || slash == std::string::npos || !(equals < dots))
     return fail(ErrorCode::kInvalidOption,
                 "--sweep: '{}' is not NAME=FROM..TO/STEP; write e.g. roll=-45deg..45deg/10deg",
                 text);
@@ -49,6 +49,16 @@ Result<SweepRange> parse_sweep_range(const std::string& text, SceneDescription s
                 "options",
                 range.option);
   range.quantity = field->quantity;
+  // deg/s has a slash of its own.
+  const auto ends_a_value = [&](std::size_t at) {
+    return parse_quantity(std::string_view(text).substr(dots + 2, at - dots - 2), range.quantity)
+        .has_value();
+  };
+  for (std::size_t next = slash; next != std::string::npos; next = text.find('/', next + 1)) {
+    if (!ends_a_value(next)) continue;
+    slash = next;
+    break;
+  }
   const auto read = [&](std::size_t begin, std::size_t end) {
     auto value = parse_quantity(std::string_view(text).substr(begin, end - begin), range.quantity);
     if (!value) value.error().message = "--sweep " + range.option + ": " + value.error().message;
@@ -61,9 +71,13 @@ Result<SweepRange> parse_sweep_range(const std::string& text, SceneDescription s
   const double steps = std::floor((to - from) / step + 1e-9);
   if (!(step > 0.0) || !(steps >= 0.0) || steps >= kMostValues)
     return fail(ErrorCode::kInvalidOption,
-                "--sweep: '{}' has not 1 to {:.0f} values; give FROM <= TO and a STEP above 0",
+                "--sweep: '{}' does not give 1 to {:.0f} values; give FROM <= TO and a STEP above "
+                "0",
                 text, kMostValues);
-  for (int i = 0; i <= int(steps); ++i) range.values.push_back(from + i * step);
+  for (int i = 0; i <= int(steps); ++i) {
+    const double value = from + i * step;
+    range.values.push_back(std::abs(value) < 1e-9 * step ? 0.0 : value);  // not 1e-15deg
+  }
   return range;
 }
 

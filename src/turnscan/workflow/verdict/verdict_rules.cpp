@@ -138,12 +138,17 @@ class Judge {
           "How far it lies from the truth is not known, because too few frames see each place.");
       return;
     }
-    const std::string most = most_m ? fmt::format("95 % of it lies within {:.2f} mm", *most_m * 1e3)
-                                    : "How far the worst 5 % of it lies is not known";
+    const std::string most =
+        most_m ? fmt::format("95 % of it lies within {:.2f} mm, and {:.1f} % within 1 mm",
+                             *most_m * 1e3, 100.0 * share)
+               : fmt::format(
+                     "{:.1f} % of it lies within 1 mm. How far the worst 5 % of it lies is "
+                     "not known",
+                     100.0 * share);
     say("error", workflow::level_of(share, kGoodShare, kFairShare),
         fmt::format("The measured surface is expected to lie {:.2f} mm from the truth in the "
-                    "median. {}, and {:.1f} % within 1 mm.",
-                    *median_m * 1e3, most, 100.0 * share),
+                    "median. {}.",
+                    *median_m * 1e3, most),
         *median_m * 1e3, "mm");
   }
 
@@ -241,8 +246,8 @@ class Judge {
                           hidden_ * area_m2 * 1e4, 100.0 * hidden_,
                           height_sigma_m ? "" : " besides the base",
                           !(object_.no_return_area_m2 > 0.0) ? ""
-                          : object_.too_near ? ", or got a return from there, which was too near"
-                                             : ", or got a return from there");
+                          : object_.too_near ? ", or it returned nothing because it was too near"
+                                             : ", or it returned nothing");
     say("invented", workflow::level_of(1.0 - hidden_, 1.0 - kGoodHidden, 1.0 - kFairHidden),
         text + (largest.empty() ? "" : largest + "."), 100.0 * invented, "%");
   }
