@@ -159,7 +159,7 @@ TEST_F(ReconstructRunOf, TimesThatGoBackAreNotGreen) {
   ASSERT_TRUE(run) << run.error().text();
   const Verdict& verdict = *run->reconstruction.objects.at(0).verdict;
   EXPECT_EQ(verdict.level(), Level::kBad);
-  EXPECT_NE(verdict.sentences.front().text.find("times go back at frame 4"), std::string::npos);
+  EXPECT_NE(verdict.sentences.front().text.find("Times go back at frame 4"), std::string::npos);
 }
 
 TEST_F(ReconstructRunOf, ACancelledContextIsCancelled) {
