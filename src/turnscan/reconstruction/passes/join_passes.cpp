@@ -107,7 +107,9 @@ class ObjectJoin {
     for (std::size_t i = 0; i < of_a.size(); ++i)
       for (std::size_t j = 0; j < of_b.size(); ++j)
         verdicts_.push_back({first_of_pass_[a] + i, first_of_pass_[b] + j, std::move(table[i][j])});
-    if (single && verdicts_.back().verdict.certain) chain(verdicts_.back());
+    // Surfaces that colours had to tell apart agree in other poses, too: they confirm nothing.
+    if (single && verdicts_.back().verdict.certain && !verdicts_.back().verdict.by_colors)
+      chain(verdicts_.back());
     return {};
   }
 
