@@ -62,7 +62,7 @@ class MissingOrDamaged(harness.TestCase):
         self.refused(FAILED, "reconstruct", "images", "-o", "m.ply", says="the intrinsics of their camera")
         lines = self.ok("import", "--list").stdout.splitlines()
         self.assertIn("format", lines[0])
-        self.assertEqual(len(lines), 16)
+        self.assertEqual(len(lines), 17)
 
     def test_a_mesh_is_no_recording(self):
         for name in ("m.ply", "m.3mf"):
