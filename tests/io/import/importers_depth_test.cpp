@@ -282,6 +282,30 @@ TEST(DepthFolder, TiffThatIsNotDepthOrIsDamagedIsNamed) {
   EXPECT_THAT(why(tiff(false, 2, 2, 16, 1, four).substr(0, 40)), HasSubstr("tables"));
 }
 
+TEST(DepthFolder, TakesSnapshotsOfRealSenseViewer) {
+  const TempFolder folder;
+  // As common/model-views.cpp of librealsense writes them.
+  const char* table =
+      "Frame Info: \nType,Depth\nFormat,Z16\nFrame Number,42\nTimestamp (ms),1.00\n"
+      "Resolution x,3\nResolution y,2\nBytes per pixel,2\n\nIntrinsic:,\nFx,425.5\nFy,425.25\n"
+      "PPx,1.5\nPPy,0.75\nDistorsion,Brown Conrady\n";
+  for (const char* name : {"b_Depth", "a_Depth"}) {
+    folder.put(std::string(name) + ".raw", std::string("\1\2\0\0\3\0\4\0\5\0\6\0", 12));
+    folder.put(std::string(name) + "_metadata.csv", table);
+    ASSERT_TRUE(write_color_png(folder / (std::string(name) + "_Color.png"), ColorImage(3, 2)));
+  }
+  const auto sequence = open(folder.path(), with_depth_unit());
+  ASSERT_EQ(sequence->frames().size(), 2u);
+  const CameraIntrinsics& camera = sequence->header().sensors[0].intrinsics;
+  EXPECT_EQ(camera.fx, 425.5);
+  EXPECT_EQ(camera.cy, 0.75);
+  EXPECT_THAT(frame_of(*sequence, 0).depth.pixels, ElementsAre(0x0201, 0, 3, 4, 5, 6));
+  folder.put("a_Depth.raw", "short");
+  EXPECT_THAT(refusal(folder.path(), with_depth_unit()).text(), HasSubstr("cannot hold 3 x 2"));
+  std::filesystem::remove(folder / "a_Depth_metadata.csv");
+  EXPECT_THAT(refusal(folder.path(), with_depth_unit()).text(), HasSubstr("a_Depth_metadata.csv"));
+}
+
 TEST(DepthFolder, DamagedArraysAreNamed) {
   ImportOptions options = with_depth_unit();
   options.intrinsics = "585,585,1,0.5";

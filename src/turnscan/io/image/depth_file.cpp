@@ -181,6 +181,11 @@ Result<DepthFile> decode_depth_png_file(std::string_view bytes, bool take_eight_
 }  // namespace
 
 Result<DepthFile> decode_depth_file(std::string_view bytes, const DepthFileOptions& options) {
+  if (options.bare_rows > 0) {
+    const NumberImage bare{'u', false, 2, options.bare_rows, options.bare_columns};
+    TURNSCAN_TRY(check_depth_size(bare.columns, bare.rows, bare.value_bytes, bytes.size()));
+    return depth_of(bare, bytes, options.float_unit_m);
+  }
   if (bytes.starts_with(kNpyMagic)) return decode_npy(bytes, options.float_unit_m);
   if (bytes.starts_with("P5")) return decode_pgm(bytes);
   if (image::looks_like_tiff(bytes)) {

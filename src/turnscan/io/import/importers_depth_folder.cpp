@@ -1,6 +1,8 @@
 // Imports a plain folder of depth images, NAME.png or depth/NAME.png, with whatever stands beside
 // them: colour images of the same name in color/ or rgb/, a 3x3 matrix of the camera, a table of
-// angles. Stray Scanner's folders (depth/, camera_matrix.csv, odometry.csv) are of this kind:
+// angles. Snapshots of Intel's RealSense Viewer are of this kind (NAME_Depth.raw and
+// NAME_Depth_metadata.csv: https://github.com/IntelRealSense/librealsense, common/), and Stray
+// Scanner's folders (depth/, camera_matrix.csv, odometry.csv) are of this kind:
 // https://github.com/strayrobots/scanner: millimetres, and the matrix is that of the colour video.
 
 #include <algorithm>
@@ -24,7 +26,7 @@ namespace {
 constexpr double kOffMiddle = 0.25;
 constexpr double kSameShape = 0.1;
 /// The most exact first.
-constexpr std::array<const char*, 5> kDepthEndings{".npy", ".tiff", ".tif", ".pgm", ".png"};
+constexpr std::array<const char*, 6> kDepthEndings{".npy", ".tiff", ".tif", ".raw", ".pgm", ".png"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -83,7 +85,7 @@ Result<DepthFolder> depth_images_in(const fs::path& folder) {
   std::stable_sort(out.names.begin(), out.names.end(), precedes);
   if (out.names.empty())
     return fail_at(out.images.string(), ErrorCode::kTooFewPoints,
-                   "there are no depth images (PNG, PGM, TIFF or NPY)");
+                   "there are no depth images (PNG, PGM, TIFF, NPY or RealSense Viewer's .raw)");
   return out;
 }
 
@@ -119,6 +121,39 @@ Result<> put_angles(const fs::path& path, const ImportOptions& options, const fs
     frame.info.pass = known.pass;
   }
   return {};
+}
+
+/// The camera, with the size of its images, in the table beside a snapshot of RealSense Viewer:
+/// lines of a name and a value.
+Result<CameraIntrinsics> snapshot_camera(const fs::path& snapshot) {
+  const fs::path table = snapshot.parent_path() / (snapshot.stem().string() + "_metadata.csv");
+  TURNSCAN_ASSIGN(const bool there, file::is_there(table));
+  if (!there)
+    return fail_at(snapshot.string(), ErrorCode::kMissingData,
+                   "bare numbers do not say the size of their image: beside it must lie {}, as "
+                   "RealSense Viewer writes it",
+                   table.filename().string());
+  TURNSCAN_ASSIGN(const std::string text, read_file(table, kMaxTextBytes));
+  CameraIntrinsics out;
+  double width = 0.0, height = 0.0;
+  const std::map<std::string_view, double*> wanted{
+      {"Resolution x", &width}, {"Resolution y", &height}, {"Fx", &out.fx},
+      {"Fy", &out.fy},          {"PPx", &out.cx},          {"PPy", &out.cy}};
+  text::LineReader lines(text);
+  while (const auto line = lines.next_content()) {
+    const std::size_t comma = line->text.find(',');
+    const auto field = wanted.find(text::trimmed(line->text.substr(0, comma)));
+    if (comma == line->text.npos || field == wanted.end()) continue;
+    const auto value = parse_number(text::trimmed(line->text.substr(comma + 1)));
+    if (!value) return at_path(table, value.error());
+    *field->second = *value;
+  }
+  if (!(width >= 1.0 && height >= 1.0 && width <= 65535.0 && height <= 65535.0))
+    return fail_at(table.string(), ErrorCode::kFormat,
+                   "it does not say the size of the image (Resolution x, Resolution y)");
+  out.width = int(width);
+  out.height = int(height);
+  return out;
 }
 
 Result<CameraIntrinsics> required_intrinsics(const fs::path& folder) {
@@ -170,12 +205,20 @@ OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& option
   SequenceHeader header;
   header.source = fmt::format("depth images of {}", display_name(folder));
   SensorInfo sensor;
-  TURNSCAN_ASSIGN(sensor.intrinsics, options.intrinsics.empty() ? required_intrinsics(folder)
-                                                                : stated_intrinsics(options));
+  DepthFileOptions files{1.0, true};
+  if (depth.names.front().ends_with(".raw")) {
+    TURNSCAN_ASSIGN(sensor.intrinsics, snapshot_camera(depth.images / depth.names.front()));
+    files.bare_rows = std::uint32_t(sensor.intrinsics.height);
+    files.bare_columns = std::uint32_t(sensor.intrinsics.width);
+  }
+  if (!options.intrinsics.empty() || !(sensor.intrinsics.fx > 0.0)) {
+    TURNSCAN_ASSIGN(sensor.intrinsics, options.intrinsics.empty() ? required_intrinsics(folder)
+                                                                  : stated_intrinsics(options));
+  }
   TURNSCAN_ASSIGN(const bool stray, file::is_there(folder / "odometry.csv"));
   TURNSCAN_ASSIGN(const DepthFile first,
-                  read_depth_file(depth.images / depth.names.front(), {1.0, true}));
-  DepthFileOptions files{options.depth_unit_m.value_or(1.0), true};
+                  read_depth_file(depth.images / depth.names.front(), files));
+  files.float_unit_m = options.depth_unit_m.value_or(1.0);
   TURNSCAN_ASSIGN(sensor.depth_unit_m,
                   depth_scale(options, stray          ? std::optional(1e-3)
                                        : first.floats ? std::optional(kFloatDepthStep_m)
