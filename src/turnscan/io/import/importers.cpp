@@ -95,7 +95,8 @@ const std::vector<Importer>& table() {
        open_bop,
        {"depth-unit", "world-up"}},
       {{ImportFormat::kDepthFolder, "depth-folder",
-        "depth images (PNG, PGM or NPY, in the folder or its depth/) and the camera's intrinsics"},
+        "depth images (PNG, TIFF, PGM, NPY or snapshots of RealSense Viewer, in the folder or its "
+        "depth/) and the camera's intrinsics"},
        open_depth_folder,
        {"depth-unit", "intrinsics", "fps", "angles", "pose-direction", "world-up", "clockwise"}}};
   return importers;

@@ -74,7 +74,7 @@ OpenResult open_nerfstudio(const std::filesystem::path& path, const ImportOption
 OpenResult open_bop(const std::filesystem::path& folder, const ImportOptions& options);
 OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions& options);
 
-/// Whether a file of this name may be a depth image: PNG, PGM or NPY.
+/// Whether a file of this name may be a depth image: PNG, TIFF, PGM, NPY or bare numbers.
 bool is_depth_name(std::string_view name);
 /// "frame_00012.json", as 3D Scanner App names the metadata of a frame.
 bool is_scanner_app_frame(std::string_view name);
