@@ -20,17 +20,18 @@ Packed<T> rows_of(const py::array& array, const char* name, py::ssize_t count = 
   raise({ErrorCode::kFormat, fmt::format("{}: an array of N rows of three is needed", name), ""});
 }
 
-MeshObject make_mesh(const py::array& given_vertices, const py::array& given_triangles,
-                     const std::optional<py::array>& given_colors) {
-  const auto vertices = rows_of<float>(given_vertices, "vertices");
-  const auto triangles = rows_of<std::uint32_t>(given_triangles, "triangles");
+/// Arrays, or lists of rows; colors may be None.
+MeshObject make_mesh(const py::object& given_vertices, const py::object& given_triangles,
+                     const py::object& given_colors) {
+  const auto vertices = rows_of<float>(py::array(given_vertices), "vertices");
+  const auto triangles = rows_of<std::uint32_t>(py::array(given_triangles), "triangles");
   auto mesh = std::make_shared<TriangleMesh>();
   for (py::ssize_t i = 0; i < vertices.shape(0); ++i)
     mesh->vertices.emplace_back(vertices.at(i, 0), vertices.at(i, 1), vertices.at(i, 2));
   for (py::ssize_t i = 0; i < triangles.shape(0); ++i)
     mesh->triangles.push_back({triangles.at(i, 0), triangles.at(i, 1), triangles.at(i, 2)});
-  if (given_colors) {
-    const auto colors = rows_of<std::uint8_t>(*given_colors, "colors", vertices.shape(0));
+  if (!given_colors.is_none()) {
+    const auto colors = rows_of<std::uint8_t>(py::array(given_colors), "colors", vertices.shape(0));
     for (py::ssize_t i = 0; i < colors.shape(0); ++i)
       mesh->colors.push_back({colors.at(i, 0), colors.at(i, 1), colors.at(i, 2)});
   }
