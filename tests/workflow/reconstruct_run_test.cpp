@@ -86,9 +86,8 @@ TEST_F(ReconstructRunOf, ThinLegsOfAFilteringSensorAreNotInsideOut) {
   EXPECT_LT(crossing, 40);
 }
 
-// What it sees of the platter after the knock says nothing of the calibration.
-TEST_F(ReconstructRunOf, AKnockThatWasPutRightIsNotHeldAgainstTheMesh) {
-  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+/// A sensor that is knocked after a second.
+SceneDescription knocked_scene() {
   SceneDescription scene;
   scene.object = "builtin:doll";
   scene.motion.frames = 60;
@@ -96,7 +95,13 @@ TEST_F(ReconstructRunOf, AKnockThatWasPutRightIsNotHeldAgainstTheMesh) {
   scene.placement.knock.at_s = 1.0;
   scene.placement.knock.shift_m = 0.005;
   scene.placement.knock.pan_rad = 0.5 * kRadiansPerDegree;
-  const auto run = run_of(scene);
+  return scene;
+}
+
+// What it sees of the platter after the knock says nothing of the calibration.
+TEST_F(ReconstructRunOf, AKnockThatWasPutRightIsNotHeldAgainstTheMesh) {
+  if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
+  const auto run = run_of(knocked_scene());
   ASSERT_TRUE(run) << run.error().text();
   ASSERT_EQ(run->choice.disturbances.size(), 1U);
   EXPECT_EQ(run->choice.disturbances[0].kind, DisturbanceKind::kSensor);
@@ -107,13 +112,7 @@ TEST_F(ReconstructRunOf, AKnockThatWasPutRightIsNotHeldAgainstTheMesh) {
 
 TEST_F(ReconstructRunOf, AStaleTableThatFramesWereMovedOffIsNotHeldAgainstTheMesh) {
   if (testing::kSanitized) GTEST_SKIP() << "the others run the same code";
-  SceneDescription scene;
-  scene.object = "builtin:doll";
-  scene.motion.frames = 60;
-  scene.measure.noise = "gaussian:1mm";
-  scene.placement.knock.at_s = 1.0;
-  scene.placement.knock.shift_m = 0.005;
-  scene.placement.knock.pan_rad = 0.5 * kRadiansPerDegree;
+  SceneDescription scene = knocked_scene();
   scene.table.tilt_rad = 1.0 * kRadiansPerDegree;
   scene.table.x_m = 0.004;
   scene.record.calibration = RecordedCalibration::kNominal;

@@ -27,8 +27,7 @@ void declare_capture(CommandLine& line, CaptureSetup& setup) {
               "Calibration of the turntable: a file saved by turnscan calibrate");
   line.option("--motor", "PORT", setup.motor_port,
               "Turn the table with the motor controller at this serial port, e.g. /dev/ttyUSB0, or "
-              "tcp:HOST:PORT "
-              "(see docs/reference/motor.md)");
+              "tcp:HOST:PORT (see docs/reference/motor.md)");
   line.allow_config();
   line.group("stops", "Recording at stops, with --motor", describe(setup.options.stops));
   line.group("recorder", "Recorder", describe(setup.options.recorder));

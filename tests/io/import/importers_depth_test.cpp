@@ -199,13 +199,18 @@ TEST(DepthFolder, TakesArraysOfFloatsInMetres) {
               ElementsAre(5, 10, 0, 0, 70, 0));
 }
 
+/// What is imported of a folder with this file.
+auto pixels_of(const char* name, const std::string& bytes, const ImportOptions& options) {
+  const TempFolder folder;
+  folder.put(name, bytes);
+  return frame_of(*open(folder.path(), options), 0).depth.pixels;
+}
+
 TEST(DepthFolder, TakesArraysOfIntegersPgmAndEightBits) {
   ImportOptions options = with_depth_unit();
   options.intrinsics = "585,585,1,0.5";
   const auto pixels = [&](const char* name, const std::string& bytes) {
-    const TempFolder folder;
-    folder.put(name, bytes);
-    return frame_of(*open(folder.path(), options), 0).depth.pixels;
+    return pixels_of(name, bytes, options);
   };
   EXPECT_THAT(pixels("a.npy", npy<std::int32_t>("<i4", "(2, 3)", {70000, 700, -1, 1, 2, 3})),
               ElementsAre(0, 700, 0, 1, 2, 3));
@@ -252,9 +257,7 @@ TEST(DepthFolder, TakesTiffOfIntegersAndFloats) {
   ImportOptions options = with_depth_unit();
   options.intrinsics = "585,585,1,0.5";
   const auto pixels = [&](const char* name, const std::string& bytes) {
-    const TempFolder folder;
-    folder.put(name, bytes);
-    return frame_of(*open(folder.path(), options), 0).depth.pixels;
+    return pixels_of(name, bytes, options);
   };
   const std::string four("\1\2\0\1\0\0\3\0", 8);
   EXPECT_THAT(pixels("a.tiff", tiff(true, 2, 2, 16, 1, four)), ElementsAre(0x0102, 1, 0, 0x0300));

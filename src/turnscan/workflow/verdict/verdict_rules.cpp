@@ -374,8 +374,7 @@ class Judge {
     else if (!object_.too_near)
       say("help", Level::kGood,
           "Move the sensor to half the distance. Its pixels then lie half as far apart, and noise "
-          "is "
-          "smaller.");
+          "is smaller.");
   }
 
   ObjectResult& object_;
