@@ -4,13 +4,12 @@
 #include <cmath>
 #include <tests/reconstruction/mesh_refinement/lens_mesh.hpp>
 #include <turnscan/core/parallel.hpp>
-#include <turnscan/geometry/mesh/winding_faults.hpp>
+#include <turnscan/geometry/mesh/self_intersections.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 
 namespace turnscan::mesh_refinement {
 namespace {
 
-constexpr double kSpacing_m = 0.001;
 constexpr float kHalfThickness_m = 0.003f;
 
 /// 6 mm thick.
@@ -27,25 +26,24 @@ TriangleMesh crossed(float radius_m) {
 }
 
 std::ptrdiff_t faults(const TriangleMesh& mesh) {
-  const auto marks = winding_faults(mesh, kSpacing_m);
-  return std::count(marks.begin(), marks.end(), 1);
+  return std::ptrdiff_t(self_intersections(mesh).edges);
 }
 
 TEST(UntangleMesh, TwoSidesThatPassedThroughEachOtherLieNearEachOther) {
   TriangleMesh mesh = crossed(0.012f);
   ASSERT_GT(faults(mesh), 0);
-  ASSERT_TRUE(untangle(mesh, sheet().vertices, kSpacing_m, RunContext()));
+  ASSERT_TRUE(untangle(mesh, sheet().vertices, RunContext()));
   EXPECT_EQ(faults(mesh), 0);
   // The middles of both sides.
   const float apart = mesh.vertices[0].y() - mesh.vertices[mesh.vertices.size() / 2].y();
-  EXPECT_GT(apart, -float(kSpacing_m));
+  EXPECT_GT(apart, 0.0f);
   EXPECT_LT(apart, kHalfThickness_m);
 }
 
 TEST(UntangleMesh, WhatLiesApartFromTheFaultsStays) {
   TriangleMesh mesh = crossed(0.012f);
   const TriangleMesh before = mesh;
-  ASSERT_TRUE(untangle(mesh, sheet().vertices, kSpacing_m, RunContext()));
+  ASSERT_TRUE(untangle(mesh, sheet().vertices, RunContext()));
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3f& p = before.vertices[v];
     if (std::hypot(p.x(), p.z()) < 0.02f) continue;
@@ -57,27 +55,27 @@ TEST(UntangleMesh, AMeshThatDoesNotPassThroughItselfStaysAsItIs) {
   TriangleMesh mesh = sheet();
   std::vector<Vec3f> start = mesh.vertices;
   for (Vec3f& p : start) p *= 1.1f;
-  ASSERT_TRUE(untangle(mesh, start, kSpacing_m, RunContext()));
+  ASSERT_TRUE(untangle(mesh, start, RunContext()));
   EXPECT_EQ(mesh.vertices, sheet().vertices);
 }
 
 TEST(UntangleMesh, WhatPassedThroughItselfBeforeStays) {
   TriangleMesh mesh = crossed(0.012f);
   const TriangleMesh before = mesh;
-  ASSERT_TRUE(untangle(mesh, before.vertices, kSpacing_m, RunContext()));
+  ASSERT_TRUE(untangle(mesh, before.vertices, RunContext()));
   EXPECT_EQ(mesh.vertices, before.vertices);
 }
 
 TEST(UntangleMesh, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
   TriangleMesh one = crossed(0.012f), many = one, none = one;
   set_thread_count(1);
-  ASSERT_TRUE(untangle(one, sheet().vertices, kSpacing_m, RunContext()));
+  ASSERT_TRUE(untangle(one, sheet().vertices, RunContext()));
   set_thread_count(0);
-  ASSERT_TRUE(untangle(many, sheet().vertices, kSpacing_m, RunContext()));
+  ASSERT_TRUE(untangle(many, sheet().vertices, RunContext()));
   EXPECT_EQ(one.vertices, many.vertices);
   const RunContext context;
   context.cancel();
-  const auto result = untangle(none, sheet().vertices, kSpacing_m, context);
+  const auto result = untangle(none, sheet().vertices, context);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
 }

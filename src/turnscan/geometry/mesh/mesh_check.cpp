@@ -4,6 +4,7 @@
 #include <turnscan/core/disjoint_sets.hpp>
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
+#include <turnscan/geometry/mesh/self_intersections.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -153,7 +154,11 @@ class MeshChecker {
 
 }  // namespace
 
-MeshReport check_mesh(const TriangleMesh& mesh) { return MeshChecker(mesh).run(); }
+MeshReport check_mesh(const TriangleMesh& mesh) {
+  MeshReport report = MeshChecker(mesh).run();
+  report.crossing_edges = self_intersections(mesh).edges;
+  return report;
+}
 
 std::string MeshReport::text() const {
   std::string text = triangles == 0 ? "empty" : watertight() ? "watertight" : "not watertight";
@@ -166,6 +171,7 @@ std::string MeshReport::text() const {
   add(non_manifold_edges, "edges of three or more triangles");
   add(non_manifold_vertices, "vertices where surfaces touch");
   add(misoriented_edges, "edges between triangles of opposite orientation");
+  add(crossing_edges, "edges that pass through other triangles");
   if (closed && manifold && oriented && !outward) text += ", inside out";
   return text + fmt::format(", {} {}, {} vertices, {} triangles", components,
                             components == 1 ? "piece" : "pieces", vertices, triangles);

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
-#include <vector>
 
 namespace turnscan {
 namespace {
@@ -59,6 +58,9 @@ struct FloatBox {
   void add(const Vec3f& p) {
     lo = lo.cwiseMin(p);
     hi = hi.cwiseMax(p);
+  }
+  bool meets(const Vec3f& low, const Vec3f& high) const {
+    return (lo.array() <= high.array()).all() && (hi.array() >= low.array()).all();
   }
   double squared_distance(const Vec3d& p) const {
     double sum = 0.0;
@@ -230,6 +232,27 @@ MeshDistance::Hit MeshDistance::closest(const Vec3d& p, double max_distance) con
     impl_->query(p, max_distance, best);
   }
   return best;
+}
+
+void MeshDistance::append_near(const Vec3f& low, const Vec3f& high,
+                               std::vector<std::uint32_t>& out) const {
+  if (impl_->nodes.empty()) return;
+  std::uint32_t stack[64];  // as in query()
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = impl_->nodes[stack[--depth]];
+    for (int side = 0; side < 2; ++side) {
+      if (!node.box[side].meets(low, high)) continue;
+      const std::uint32_t child = node.child[side];
+      if ((child & kLeafBit) == 0) {
+        stack[depth++] = child;
+        continue;
+      }
+      const auto first = impl_->ids.begin() + std::ptrdiff_t(child & ~kLeafBit);
+      out.insert(out.end(), first, first + std::ptrdiff_t(node.count[side]));
+    }
+  }
 }
 
 }  // namespace turnscan

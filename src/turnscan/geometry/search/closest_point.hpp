@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
 
 namespace turnscan {
 
@@ -35,6 +36,9 @@ class MeshDistance {
   /// Nearest point within max_distance (inclusive, metres). If nothing is found, as for an empty
   /// mesh or a p that is not finite: triangle == kNone.
   Hit closest(const Vec3d& p, double max_distance = std::numeric_limits<double>::infinity()) const;
+
+  /// Appends the triangles that may reach into a box: all that do, and some beside it.
+  void append_near(const Vec3f& low, const Vec3f& high, std::vector<std::uint32_t>& out) const;
 
  private:
   struct Impl;

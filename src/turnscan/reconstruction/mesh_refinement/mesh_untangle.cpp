@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iterator>
-#include <turnscan/geometry/mesh/winding_faults.hpp>
+#include <optional>
+#include <turnscan/geometry/mesh/self_intersections.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 
 namespace turnscan::mesh_refinement {
@@ -11,6 +12,7 @@ constexpr std::size_t kSmallSteps = 8;
 constexpr float kSmallStep = 0.3f;
 constexpr int kSmallStepRings = 6;
 constexpr int kWholeWayRings[] = {12, 24, 48};
+constexpr int kSmoothings = 40, kSmoothingsPerRing = 5;
 
 }  // namespace
 
@@ -19,9 +21,8 @@ bool any_marked(const std::vector<std::uint8_t>& marks) {
 }
 
 std::vector<std::uint8_t> crossing_vertices(const TriangleMesh& mesh,
-                                            const std::vector<std::uint8_t>& faults_before,
-                                            double spacing_m) {
-  const std::vector<std::uint8_t> faults = winding_faults(mesh, spacing_m);
+                                            const std::vector<std::uint8_t>& faults_before) {
+  const std::vector<std::uint8_t> faults = self_intersections(mesh).triangles;
   std::vector<std::uint8_t> out(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < faults.size(); ++t)
     if (faults[t] && !faults_before[t])
@@ -41,17 +42,16 @@ std::vector<float> fading_around(const MeshNeighbours& neighbours,
   return out;
 }
 
-Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, double spacing_m,
-                  const RunContext& context) {
-  if (!any_marked(winding_faults(mesh, spacing_m))) return {};
+Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, const RunContext& context) {
+  if (self_intersections(mesh).edges == 0) return {};
   TriangleMesh unmoved;
   unmoved.vertices = start;
   unmoved.triangles = mesh.triangles;
-  const std::vector<std::uint8_t> before = winding_faults(unmoved, spacing_m);
+  const std::vector<std::uint8_t> before = self_intersections(unmoved).triangles;
   const MeshNeighbours neighbours(mesh);
   for (std::size_t n = 0; n < kSmallSteps + std::size(kWholeWayRings); ++n) {
     TURNSCAN_TRY(context.check());
-    const std::vector<std::uint8_t> crossing = crossing_vertices(mesh, before, spacing_m);
+    const std::vector<std::uint8_t> crossing = crossing_vertices(mesh, before);
     if (!any_marked(crossing)) return {};
     const bool small = n < kSmallSteps;
     const float step = small ? kSmallStep : 1.0f;
@@ -60,7 +60,27 @@ Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, double sp
     for (std::size_t v = 0; v < share.size(); ++v)
       mesh.vertices[v] += step * share[v] * (start[v] - mesh.vertices[v]);
   }
-  if (any_marked(crossing_vertices(mesh, before, spacing_m))) mesh.vertices = start;
+  if (any_marked(crossing_vertices(mesh, before))) mesh.vertices = start;
+  return {};
+}
+
+Result<> smooth_crossings(TriangleMesh& mesh, const RunContext& context) {
+  std::optional<MeshNeighbours> neighbours;
+  for (int n = 0; n < kSmoothings; ++n) {
+    TURNSCAN_TRY(context.check());
+    const std::vector<std::uint8_t> crossing =
+        crossing_vertices(mesh, std::vector<std::uint8_t>(mesh.triangles.size(), 0));
+    if (!any_marked(crossing)) return {};
+    if (!neighbours) neighbours.emplace(mesh);
+    const std::vector<float> share =
+        fading_around(*neighbours, crossing, 1 + n / kSmoothingsPerRing);
+    std::vector<Vec3f> next = mesh.vertices;
+    for (std::size_t v = 0; v < share.size(); ++v)
+      if (share[v] > 0.0f)
+        next[v] +=
+            0.5f * share[v] * (neighbours->mean(mesh.vertices, v, Vec3f(Vec3f::Zero())) - next[v]);
+    mesh.vertices.swap(next);
+  }
   return {};
 }
 

@@ -12,23 +12,26 @@ namespace turnscan::mesh_refinement {
 /// Whether any flag is set.
 bool any_marked(const std::vector<std::uint8_t>& marks);
 
-/// One flag per vertex: those of triangles with winding_faults() of that spacing, except triangles
-/// that had some before.
+/// One flag per vertex: those of triangles with self_intersections(), except triangles that had
+/// some before.
 std::vector<std::uint8_t> crossing_vertices(const TriangleMesh& mesh,
-                                            const std::vector<std::uint8_t>& faults_before,
-                                            double spacing_m);
+                                            const std::vector<std::uint8_t>& before);
 
 /// Per vertex: 1 if marked, less by 1 / rings with each ring of neighbours, down to 0.
 std::vector<float> fading_around(const MeshNeighbours& neighbours,
                                  const std::vector<std::uint8_t>& marked, int rings);
 
 /// Moves vertices back towards their start positions (one per vertex) until no triangle has
-/// winding_faults() of that spacing except those that had some at the start: the vertices of such
-/// triangles, and their neighbours up to 6 rings away to a lesser degree, in steps of three tenths
-/// of their displacement and as often as needed, so that the two sides of a thin part end up close
-/// to each other. If eight steps do not suffice, they move all the way, with 12 to 48 rings, and
-/// finally all vertices do. Fails with kCancelled.
-Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, double spacing_m,
-                  const RunContext& context);
+/// self_intersections() except those that had some at the start: the vertices of such triangles,
+/// and their neighbours up to 6 rings away to a lesser degree, in steps of three tenths of their
+/// displacement and as often as needed, so that the two sides of a thin part end up close to each
+/// other. If eight steps do not suffice, they move all the way, with 12 to 48 rings, and finally
+/// all vertices do. Fails with kCancelled.
+Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, const RunContext& context);
+
+/// Averages the vertices of triangles with self_intersections(), and to a lesser degree those
+/// around them, with their neighbours until there are none: where no start is known that had none.
+/// At most 40 times, which may leave some. Fails with kCancelled.
+Result<> smooth_crossings(TriangleMesh& mesh, const RunContext& context);
 
 }  // namespace turnscan::mesh_refinement

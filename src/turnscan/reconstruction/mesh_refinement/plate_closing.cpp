@@ -3,7 +3,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/hull/resting_poses.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
-#include <turnscan/geometry/mesh/winding_faults.hpp>
+#include <turnscan/geometry/mesh/self_intersections.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 #include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
 
@@ -44,7 +44,7 @@ class PlateCloser {
   Result<> run() {
     if (!any_marked(loose_)) return {};
     const std::vector<Vec3f> start = mesh_.vertices;
-    const Marks before = winding_faults(mesh_, closing_.cell_m);
+    const Marks before = self_intersections(mesh_).triangles;
     TURNSCAN_TRY(bend(start));
     for (int n = 0; n < kMaxRests && rest_on_platter(); ++n) TURNSCAN_TRY(bend(start));
     even_contacts();
@@ -197,9 +197,7 @@ class PlateCloser {
     }
   }
 
-  Marks crossing(const Marks& before) const {
-    return crossing_vertices(mesh_, before, closing_.cell_m);
-  }
+  Marks crossing(const Marks& before) const { return crossing_vertices(mesh_, before); }
 
   /// Moves vertices that cross surface back to their start, and those in this many rings around
   /// them less, decreasing with distance. Returns whether there were any.

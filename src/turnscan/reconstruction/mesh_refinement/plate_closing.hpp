@@ -24,10 +24,10 @@ struct PlateClosing {
 /// among them in proportion to their support, to where they continue the rest tangentially with
 /// least bending (relax()), but not beyond the space that no view observed: vertices that would
 /// leave it stay at the border, and the others are solved again. Vertices that would cross other
-/// surface (winding_faults()) do not move, and those around them move less; if that does not help,
-/// everything connected with them moves half as far, or not at all. An object that would tip over
-/// as it touches the platter gets one or more additional contact points. Fails with kCancelled, and
-/// as relax() does.
+/// surface (self_intersections()) do not move, and those around them move less; if that does not
+/// help, everything connected with them moves half as far, or not at all. An object that would tip
+/// over as it touches the platter gets one or more additional contact points. Fails with
+/// kCancelled, and as relax() does.
 Result<> close_as_plate(TriangleMesh& mesh, const std::vector<float>& support,
                         const PlateClosing& closing, const RunContext& context);
 

@@ -21,8 +21,6 @@ namespace turnscan::tsdf {
 namespace {
 
 constexpr std::size_t kSampledViews = 64;
-/// Sides that cross each other by more than this are separated.
-constexpr double kUntangleCells = 0.5;
 constexpr double kPlatterCells = 0.5;  ///< vertices below this height above a platter's plane are
                                        ///< on it
 /// Relative to the best measured piece, per vertex: static clutter has 0.02 to 0.04.
@@ -109,12 +107,13 @@ class VolumetricReconstruction {
         }));
       // Behind thin parts a filtering sensor mixes the depths of both sides.
       TURNSCAN_TRY(timed("untangle", [&] {
-        return mesh_refinement::untangle(fitted.mesh, even.vertices,
-                                         kUntangleCells * scale_.volume.cell_m, context_);
+        return mesh_refinement::untangle(fitted.mesh, even.vertices, context_);
       }));
       if (options_.fit && !input_.measured_only) {
         TURNSCAN_TRY(timed("handles", [&] { return cut_unseen_handles(fitted); }));
         TURNSCAN_TRY(timed("unseen", [&] { return close_unseen(fitted, surface); }));
+        TURNSCAN_TRY(timed(
+            "untangle", [&] { return mesh_refinement::smooth_crossings(fitted.mesh, context_); }));
       }
       if (!encloses_volume(fitted.mesh)) continue;
       if (!piece.noise_share) piece.noise_share = fitted.noise_share;

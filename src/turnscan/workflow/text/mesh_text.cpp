@@ -33,6 +33,12 @@ std::string outward_sentence(const MeshReport& r) {
   return r.outward ? "Its triangles face outward." : "Its triangles face inward.";
 }
 
+std::string crossing_sentence(const MeshReport& r) {
+  if (r.crossing_edges == 0) return "It does not pass through itself.";
+  return fmt::format("It passes through itself: {} edges pass through other triangles.",
+                     r.crossing_edges);
+}
+
 nlohmann::json mesh_json(const TriangleMesh& mesh, const MeshReport& r) {
   const Vec3d size = bounds(mesh.vertices).size();
   return {{"name", mesh.name},
@@ -49,6 +55,7 @@ nlohmann::json mesh_json(const TriangleMesh& mesh, const MeshReport& r) {
           {"watertight", r.watertight()},
           {"boundary_edges", r.boundary_edges},
           {"non_manifold_edges", r.non_manifold_edges},
+          {"crossing_edges", r.crossing_edges},
           {"non_manifold_vertices", r.non_manifold_vertices},
           {"misoriented_edges", r.misoriented_edges},
           {"invalid_triangles", r.invalid_triangles},
@@ -67,8 +74,8 @@ std::string size_text(const Box& box) {
 }
 
 std::string check_sentences(const MeshReport& r) {
-  return fmt::format("{}\n{}\n{}\n{}\n", closed_sentence(r), manifold_sentence(r),
-                     outward_sentence(r),
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n", closed_sentence(r), manifold_sentence(r),
+                     outward_sentence(r), crossing_sentence(r),
                      r.watertight() ? "It is watertight. How much of it was measured is in the "
                                       "output of turnscan reconstruct."
                                     : "It is not watertight; a printer's software may refuse it.");

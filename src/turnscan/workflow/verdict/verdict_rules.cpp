@@ -309,6 +309,11 @@ class Judge {
       say("mesh", Level::kFair,
           "It is watertight, but no frame looks at one side of it. How deep it is there is a "
           "guess.");
+    else if (object_.check.crossing_edges > 0)
+      say("mesh", Level::kFair,
+          fmt::format("It is watertight, but passes through itself: {} edges pass through other "
+                      "triangles.",
+                      object_.check.crossing_edges));
     else
       say("mesh", Level::kGood, "It is watertight and can be printed.");
   }

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/mesh/self_intersections.hpp>
+#include <turnscan/geometry/search/closest_point.hpp>
+
+namespace turnscan {
+
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+class SelfIntersectionSearch {
+ public:
+  explicit SelfIntersectionSearch(const TriangleMesh& mesh) : mesh_(mesh), tree_(mesh) {}
+
+  SelfIntersections run() const {
+    SelfIntersections out{0, std::vector<std::uint8_t>(mesh_.triangles.size(), 0)};
+    const auto chunks = parallel_chunks<std::vector<Crossing>>(
+        mesh_.triangles.size(), 1024,
+        [&](std::size_t begin, std::size_t end) { return crossings_of(begin, end); });
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (const auto& chunk : chunks)
+      for (const Crossing& found : chunk) {
+        edges.push_back(std::minmax(found.a, found.b));
+        out.triangles[found.by] = out.triangles[found.through] = 1;
+      }
+    std::sort(edges.begin(), edges.end());
+    out.edges = std::size_t(std::unique(edges.begin(), edges.end()) - edges.begin());
+    return out;
+  }
+
+ private:
+  struct Crossing {
+    std::uint32_t by, through;  ///< triangles
+    std::uint32_t a, b;         ///< the edge of the first that passes through the second
+  };
+
+  Vec3d at(std::uint32_t v) const { return mesh_.vertices[v].cast<double>(); }
+
+  std::vector<Crossing> crossings_of(std::size_t begin, std::size_t end) const {
+    std::vector<Crossing> out;
+    std::vector<std::uint32_t> near;
+    for (std::size_t t = begin; t < end; ++t) {
+      const Triangle& own = mesh_.triangles[t];
+      if (std::max({own[0], own[1], own[2]}) >= mesh_.vertices.size()) continue;
+      const Vec3f &p = mesh_.vertices[own[0]], &q = mesh_.vertices[own[1]],
+                  &r = mesh_.vertices[own[2]];
+      near.clear();
+      tree_.append_near(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r), near);
+      const Vec3d x = p.cast<double>(), normal = (at(own[1]) - x).cross(at(own[2]) - x);
+      for (const std::uint32_t other : near) {
+        if (other <= t || !straddles(mesh_.triangles[other], x, normal)) continue;
+        add_crossings(std::uint32_t(t), other, out);
+        add_crossings(other, std::uint32_t(t), out);
+      }
+    }
+    return out;
+  }
+
+  /// Whether a triangle has corners on both sides of a plane through x; only then can it and a
+  /// triangle in that plane pass through each other.
+  bool straddles(const Triangle& triangle, const Vec3d& x, const Vec3d& normal) const {
+    double low = 0.0, high = 0.0;
+    for (const std::uint32_t v : triangle) {
+      const double above = normal.dot(at(v) - x);
+      low = std::min(low, above);
+      high = std::max(high, above);
+    }
+    return low < 0.0 && high > 0.0;
+  }
+
+  /// The edges of one triangle that pass through another, or its border.
+  void add_crossings(std::uint32_t by, std::uint32_t through, std::vector<Crossing>& out) const {
+    const Triangle &own = mesh_.triangles[by], &other = mesh_.triangles[through];
+    std::array<bool, 3> shared{};
+    for (std::size_t c = 0; c < 3; ++c)
+      shared[c] = std::find(other.begin(), other.end(), own[c]) != other.end();
+    if (int(shared[0]) + int(shared[1]) + int(shared[2]) > 1) return;
+    const Vec3d x = at(other[0]), y = at(other[1]), z = at(other[2]);
+    const Vec3d normal = (y - x).cross(z - x);
+    std::array<double, 3> above;
+    for (std::size_t c = 0; c < 3; ++c) above[c] = normal.dot(at(own[c]) - x);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t next = (c + 1) % 3;
+      if (shared[c] || shared[next] || !(above[c] * above[next] < 0.0)) continue;
+      const Vec3d p = at(own[c]), along = at(own[next]) - p;
+      const double u = along.dot((x - p).cross(y - p)), v = along.dot((y - p).cross(z - p)),
+                   w = along.dot((z - p).cross(x - p));
+      if ((u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0))
+        out.push_back({by, through, own[c], own[next]});
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  MeshDistance tree_;
+};
+
+}  // namespace
+
+SelfIntersections self_intersections(const TriangleMesh& mesh) {
+  return SelfIntersectionSearch(mesh).run();
+}
+
+}  // namespace turnscan
