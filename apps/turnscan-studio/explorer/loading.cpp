@@ -24,7 +24,7 @@ QString text_of(const Box& box) {
 }
 
 QString mesh_report(const TriangleMesh& mesh) {
-  const MeshReport report = check_mesh(mesh);
+  const MeshReport report = check_surface(mesh);
   QString text = QObject::tr("%1 vertices, %2 triangles in %3\n%4\nArea %5 cm²")
                      .arg(grouped(report.vertices), grouped(report.triangles))
                      .arg(report.components == 1 ? QObject::tr("1 piece")

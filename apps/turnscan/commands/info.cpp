@@ -87,7 +87,7 @@ class InfoCommand : public Command {
     std::vector<MeshReport> reports;
     for (const TriangleMesh& mesh : meshes) {
       TURNSCAN_TRY(session.context().check());
-      reports.push_back(check_mesh(mesh));
+      reports.push_back(check_surface(mesh));
       if (!json_) print_mesh(mesh, reports.back(), meshes.size(), session);
     }
     if (json_) session.print("{}\n", meshes_json(meshes, reports));

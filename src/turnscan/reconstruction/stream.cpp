@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <mutex>
+#include <turnscan/geometry/mesh/self_intersections.hpp>
 #include <turnscan/reconstruction/estimation/first_frames.hpp>
 #include <turnscan/reconstruction/finishing/fewer_triangles.hpp>
 #include <turnscan/reconstruction/finishing/finishing.hpp>
@@ -102,6 +103,8 @@ class ReconstructionStream::Impl {
     TURNSCAN_TRY(method_->finish(sink, context, out_));
     TURNSCAN_TRY(finishing::finish_objects(options_.finish, out_, context));
     TURNSCAN_TRY(finishing::reduce_triangles(options_, out_, context));
+    for (ObjectResult& object : out_.objects)
+      object.check.crossing_edges = self_intersections(object.mesh).edges;
     return std::move(out_);
   }
 

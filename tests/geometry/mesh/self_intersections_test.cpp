@@ -40,8 +40,8 @@ TEST(SelfIntersections, AreAlongTheCircleWhereTwoSpheresMeetAndNowhereElse) {
     const float circle = std::hypot(std::hypot(p.x(), p.z()) - 0.6614f, p.y() - 0.75f);
     EXPECT_TRUE(!found.triangles[t] || circle < 0.2f) << t;
   }
-  EXPECT_EQ(check_mesh(both).crossing_edges, found.edges);
-  EXPECT_THAT(check_mesh(both).text(),
+  EXPECT_EQ(check_surface(both).crossing_edges, found.edges);
+  EXPECT_THAT(check_surface(both).text(),
               ::testing::HasSubstr("edges that pass through other triangles"));
 }
 

@@ -155,6 +155,7 @@ TEST(PlateClosing, DoesNotPassThroughOtherSurface) {
   // Both sides lead inwards, and as plates they would meet beyond each other.
   const auto hollow = [](float r) { return 0.0006f + 0.5f * (std::max(r, kCap_m) - kCap_m); };
   TriangleMesh mesh = lens(hollow);
+  EXPECT_EQ(self_intersections(mesh).edges, 0u);
   PlateClosing closing = anywhere();
   closing.cell_m = 0.0005;
   ASSERT_TRUE(close_as_plate(mesh, measured_beyond(mesh, kCap_m), closing, {}));

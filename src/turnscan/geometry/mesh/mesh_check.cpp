@@ -154,8 +154,10 @@ class MeshChecker {
 
 }  // namespace
 
-MeshReport check_mesh(const TriangleMesh& mesh) {
-  MeshReport report = MeshChecker(mesh).run();
+MeshReport check_mesh(const TriangleMesh& mesh) { return MeshChecker(mesh).run(); }
+
+MeshReport check_surface(const TriangleMesh& mesh) {
+  MeshReport report = check_mesh(mesh);
   report.crossing_edges = self_intersections(mesh).edges;
   return report;
 }

@@ -24,8 +24,8 @@ struct MeshReport {
   std::size_t non_manifold_edges = 0;     ///< edges of three or more triangles
   std::size_t misoriented_edges = 0;      ///< edges whose two triangles traverse them in the same
                                           ///< direction
-  std::size_t crossing_edges = 0;         ///< edges that pass through other triangles
-                                          ///< (self_intersections())
+  std::size_t crossing_edges = 0;         ///< edges that pass through other triangles,
+                                          ///< of check_surface() only
   std::size_t non_manifold_vertices = 0;  ///< vertices whose triangles form more than one fan
   int components = 0;                     ///< pieces that share no vertex
   long long euler = 0;  ///< referenced vertices - edges + triangles (2 for a sphere)
@@ -44,7 +44,9 @@ struct MeshReport {
   std::string text() const;
 };
 
-/// Never fails, whatever the mesh contains. O(triangles); about 1 s for a million triangles.
+/// Never fails, whatever the mesh contains. O(triangles); about 0.3 s for a million triangles.
 MeshReport check_mesh(const TriangleMesh& mesh);
+/// With crossing_edges (self_intersections()): about 1.5 s for a million triangles.
+MeshReport check_surface(const TriangleMesh& mesh);
 
 }  // namespace turnscan

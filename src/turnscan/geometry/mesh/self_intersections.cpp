@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/self_intersections.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
@@ -9,9 +10,17 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// Six times the volume that three edges span, or 0 if it may be due to rounding.
+double spanned(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const double volume = a.dot(b.cross(c));
+  const double rounding = 1e-14 * a.lpNorm<1>() * b.lpNorm<1>() * c.lpNorm<1>();
+  return std::abs(volume) > rounding ? volume : 0.0;
+}
+
 class SelfIntersectionSearch {
  public:
-  explicit SelfIntersectionSearch(const TriangleMesh& mesh) : mesh_(mesh), tree_(mesh) {}
+  SelfIntersectionSearch(const TriangleMesh& mesh, std::span<const std::uint8_t> moved)
+      : mesh_(mesh), moved_(moved), tree_(mesh) {}
 
   SelfIntersections run() const {
     SelfIntersections out{0, std::vector<std::uint8_t>(mesh_.triangles.size(), 0)};
@@ -42,14 +51,15 @@ class SelfIntersectionSearch {
     std::vector<std::uint32_t> near;
     for (std::size_t t = begin; t < end; ++t) {
       const Triangle& own = mesh_.triangles[t];
+      if (!moved(t)) continue;
       if (std::max({own[0], own[1], own[2]}) >= mesh_.vertices.size()) continue;
       const Vec3f &p = mesh_.vertices[own[0]], &q = mesh_.vertices[own[1]],
                   &r = mesh_.vertices[own[2]];
       near.clear();
       tree_.append_near(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r), near);
-      const Vec3d x = p.cast<double>(), normal = (at(own[1]) - x).cross(at(own[2]) - x);
       for (const std::uint32_t other : near) {
-        if (other <= t || !straddles(mesh_.triangles[other], x, normal)) continue;
+        if (other == t || (other < t && moved(other)) || !straddles(mesh_.triangles[other], own))
+          continue;
         add_crossings(std::uint32_t(t), other, out);
         add_crossings(other, std::uint32_t(t), out);
       }
@@ -57,12 +67,13 @@ class SelfIntersectionSearch {
     return out;
   }
 
-  /// Whether a triangle has corners on both sides of a plane through x; only then can it and a
-  /// triangle in that plane pass through each other.
-  bool straddles(const Triangle& triangle, const Vec3d& x, const Vec3d& normal) const {
+  /// Whether a triangle has corners on both sides of another's plane; only then can they pass
+  /// through each other.
+  bool straddles(const Triangle& triangle, const Triangle& plane) const {
+    const Vec3d x = at(plane[0]), y = at(plane[1]) - x, z = at(plane[2]) - x;
     double low = 0.0, high = 0.0;
     for (const std::uint32_t v : triangle) {
-      const double above = normal.dot(at(v) - x);
+      const double above = spanned(at(v) - x, y, z);
       low = std::min(low, above);
       high = std::max(high, above);
     }
@@ -77,28 +88,31 @@ class SelfIntersectionSearch {
       shared[c] = std::find(other.begin(), other.end(), own[c]) != other.end();
     if (int(shared[0]) + int(shared[1]) + int(shared[2]) > 1) return;
     const Vec3d x = at(other[0]), y = at(other[1]), z = at(other[2]);
-    const Vec3d normal = (y - x).cross(z - x);
     std::array<double, 3> above;
-    for (std::size_t c = 0; c < 3; ++c) above[c] = normal.dot(at(own[c]) - x);
+    for (std::size_t c = 0; c < 3; ++c) above[c] = spanned(at(own[c]) - x, y - x, z - x);
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t next = (c + 1) % 3;
       if (shared[c] || shared[next] || !(above[c] * above[next] < 0.0)) continue;
       const Vec3d p = at(own[c]), along = at(own[next]) - p;
-      const double u = along.dot((x - p).cross(y - p)), v = along.dot((y - p).cross(z - p)),
-                   w = along.dot((z - p).cross(x - p));
+      const double u = spanned(along, x - p, y - p), v = spanned(along, y - p, z - p),
+                   w = spanned(along, z - p, x - p);
       if ((u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0))
         out.push_back({by, through, own[c], own[next]});
     }
   }
 
+  bool moved(std::size_t t) const { return moved_.empty() || moved_[t] != 0; }
+
   const TriangleMesh& mesh_;
+  std::span<const std::uint8_t> moved_;
   MeshDistance tree_;
 };
 
 }  // namespace
 
-SelfIntersections self_intersections(const TriangleMesh& mesh) {
-  return SelfIntersectionSearch(mesh).run();
+SelfIntersections self_intersections(const TriangleMesh& mesh,
+                                     std::span<const std::uint8_t> moved) {
+  return SelfIntersectionSearch(mesh, moved).run();
 }
 
 }  // namespace turnscan

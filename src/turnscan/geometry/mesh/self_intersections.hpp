@@ -2,6 +2,7 @@
 // Edges of a mesh that pass through its triangles.
 
 #include <cstdint>
+#include <span>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <vector>
 
@@ -16,8 +17,10 @@ struct SelfIntersections {
   std::vector<std::uint8_t> triangles;
 };
 
+/// moved: if not empty, one flag per triangle; pairs of triangles without it are not asked.
 /// Triangles with an index out of range or a vertex
 /// that is not finite are ignored.
-SelfIntersections self_intersections(const TriangleMesh& mesh);
+SelfIntersections self_intersections(const TriangleMesh& mesh,
+                                     std::span<const std::uint8_t> moved = {});
 
 }  // namespace turnscan

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <turnscan/geometry/mesh/self_intersections.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 
@@ -8,11 +7,11 @@ namespace turnscan::mesh_refinement {
 
 namespace {
 
-constexpr std::size_t kSmallSteps = 8;
+constexpr std::size_t kSmallSteps = 24;
 constexpr float kSmallStep = 0.3f;
 constexpr int kSmallStepRings = 6;
 constexpr int kWholeWayRings[] = {12, 24, 48};
-constexpr int kSmoothings = 40, kSmoothingsPerRing = 5;
+constexpr int kMostSmoothedRings = 24;
 
 }  // namespace
 
@@ -20,12 +19,24 @@ bool any_marked(const std::vector<std::uint8_t>& marks) {
   return std::find(marks.begin(), marks.end(), 1) != marks.end();
 }
 
+std::vector<std::uint8_t> triangles_at(const TriangleMesh& mesh, std::span<const float> values) {
+  std::vector<std::uint8_t> out(values.empty() ? 0 : mesh.triangles.size());
+  for (std::size_t t = 0; t < out.size(); ++t) {
+    const auto& corners = mesh.triangles[t];
+    out[t] = std::any_of(corners.begin(), corners.end(),
+                         [&](std::uint32_t v) { return values[v] > 0.0f; });
+  }
+  return out;
+}
+
 std::vector<std::uint8_t> crossing_vertices(const TriangleMesh& mesh,
-                                            const std::vector<std::uint8_t>& faults_before) {
-  const std::vector<std::uint8_t> faults = self_intersections(mesh).triangles;
+                                            const std::vector<std::uint8_t>& before,
+                                            std::span<const float> moved) {
+  const std::vector<std::uint8_t> faults =
+      self_intersections(mesh, triangles_at(mesh, moved)).triangles;
   std::vector<std::uint8_t> out(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < faults.size(); ++t)
-    if (faults[t] && !faults_before[t])
+    if (faults[t] && (before.empty() || !before[t]))
       for (const std::uint32_t v : mesh.triangles[t]) out[v] = 1;
   return out;
 }
@@ -43,7 +54,8 @@ std::vector<float> fading_around(const MeshNeighbours& neighbours,
 }
 
 Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, const RunContext& context) {
-  if (self_intersections(mesh).edges == 0) return {};
+  std::vector<std::uint8_t> crossing = crossing_vertices(mesh, {});
+  if (!any_marked(crossing)) return {};
   TriangleMesh unmoved;
   unmoved.vertices = start;
   unmoved.triangles = mesh.triangles;
@@ -51,35 +63,36 @@ Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, const Run
   const MeshNeighbours neighbours(mesh);
   for (std::size_t n = 0; n < kSmallSteps + std::size(kWholeWayRings); ++n) {
     TURNSCAN_TRY(context.check());
-    const std::vector<std::uint8_t> crossing = crossing_vertices(mesh, before);
-    if (!any_marked(crossing)) return {};
     const bool small = n < kSmallSteps;
     const float step = small ? kSmallStep : 1.0f;
     const std::vector<float> share = fading_around(
         neighbours, crossing, small ? kSmallStepRings : kWholeWayRings[n - kSmallSteps]);
     for (std::size_t v = 0; v < share.size(); ++v)
       mesh.vertices[v] += step * share[v] * (start[v] - mesh.vertices[v]);
+    crossing = crossing_vertices(mesh, before, share);
+    if (!any_marked(crossing)) return {};
   }
-  if (any_marked(crossing_vertices(mesh, before))) mesh.vertices = start;
+  mesh.vertices = start;
   return {};
 }
 
-Result<> smooth_crossings(TriangleMesh& mesh, const RunContext& context) {
-  std::optional<MeshNeighbours> neighbours;
-  for (int n = 0; n < kSmoothings; ++n) {
+Result<> smooth_crossings(TriangleMesh& mesh, std::span<const float> moved,
+                          const RunContext& context) {
+  std::vector<std::uint8_t> crossing = crossing_vertices(mesh, {}, moved);
+  if (!any_marked(crossing)) return {};
+  const MeshNeighbours neighbours(mesh);
+  for (int rings = 2; rings <= kMostSmoothedRings && any_marked(crossing); ++rings) {
     TURNSCAN_TRY(context.check());
-    const std::vector<std::uint8_t> crossing =
-        crossing_vertices(mesh, std::vector<std::uint8_t>(mesh.triangles.size(), 0));
-    if (!any_marked(crossing)) return {};
-    if (!neighbours) neighbours.emplace(mesh);
-    const std::vector<float> share =
-        fading_around(*neighbours, crossing, 1 + n / kSmoothingsPerRing);
-    std::vector<Vec3f> next = mesh.vertices;
-    for (std::size_t v = 0; v < share.size(); ++v)
-      if (share[v] > 0.0f)
-        next[v] +=
-            0.5f * share[v] * (neighbours->mean(mesh.vertices, v, Vec3f(Vec3f::Zero())) - next[v]);
-    mesh.vertices.swap(next);
+    const std::vector<float> share = fading_around(neighbours, crossing, rings);
+    for (int round = 0; round < rings; ++round) {
+      std::vector<Vec3f> next = mesh.vertices;
+      for (std::size_t v = 0; v < share.size(); ++v)
+        if (share[v] > 0.0f)
+          next[v] +=
+              0.5f * share[v] * (neighbours.mean(mesh.vertices, v, Vec3f(Vec3f::Zero())) - next[v]);
+      mesh.vertices.swap(next);
+    }
+    crossing = crossing_vertices(mesh, {}, share);
   }
   return {};
 }

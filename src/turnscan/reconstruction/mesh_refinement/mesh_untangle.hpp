@@ -2,6 +2,7 @@
 // Removes self-intersections that arose in a closed mesh as its vertices moved.
 
 #include <cstdint>
+#include <span>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit_parts.hpp>
@@ -12,10 +13,15 @@ namespace turnscan::mesh_refinement {
 /// Whether any flag is set.
 bool any_marked(const std::vector<std::uint8_t>& marks);
 
+/// One flag per triangle: whether a corner has a value greater than 0. None if there are no values.
+std::vector<std::uint8_t> triangles_at(const TriangleMesh& mesh, std::span<const float> values);
+
 /// One flag per vertex: those of triangles with self_intersections(), except triangles that had
-/// some before.
+/// some before (empty: none had). moved: if not empty, greater than 0 for the vertices since whose
+/// motion pairs of triangles may cross that did not.
 std::vector<std::uint8_t> crossing_vertices(const TriangleMesh& mesh,
-                                            const std::vector<std::uint8_t>& before);
+                                            const std::vector<std::uint8_t>& before,
+                                            std::span<const float> moved = {});
 
 /// Per vertex: 1 if marked, less by 1 / rings with each ring of neighbours, down to 0.
 std::vector<float> fading_around(const MeshNeighbours& neighbours,
@@ -25,13 +31,14 @@ std::vector<float> fading_around(const MeshNeighbours& neighbours,
 /// self_intersections() except those that had some at the start: the vertices of such triangles,
 /// and their neighbours up to 6 rings away to a lesser degree, in steps of three tenths of their
 /// displacement and as often as needed, so that the two sides of a thin part end up close to each
-/// other. If eight steps do not suffice, they move all the way, with 12 to 48 rings, and finally
+/// other. If 24 steps do not suffice, they move all the way, with 12 to 48 rings, and finally
 /// all vertices do. Fails with kCancelled.
 Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, const RunContext& context);
 
-/// Averages the vertices of triangles with self_intersections(), and to a lesser degree those
-/// around them, with their neighbours until there are none: where no start is known that had none.
-/// At most 40 times, which may leave some. Fails with kCancelled.
-Result<> smooth_crossings(TriangleMesh& mesh, const RunContext& context);
+/// Averages the vertices of triangles with self_intersections(), and to a lesser degree those of up
+/// to 24 rings around them, with their neighbours until there are none: where no start is known
+/// that had none. moved: as for crossing_vertices(). It may leave some. Fails with kCancelled.
+Result<> smooth_crossings(TriangleMesh& mesh, std::span<const float> moved,
+                          const RunContext& context);
 
 }  // namespace turnscan::mesh_refinement

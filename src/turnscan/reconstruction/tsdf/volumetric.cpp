@@ -112,8 +112,6 @@ class VolumetricReconstruction {
       if (options_.fit && !input_.measured_only) {
         TURNSCAN_TRY(timed("handles", [&] { return cut_unseen_handles(fitted); }));
         TURNSCAN_TRY(timed("unseen", [&] { return close_unseen(fitted, surface); }));
-        TURNSCAN_TRY(timed(
-            "untangle", [&] { return mesh_refinement::smooth_crossings(fitted.mesh, context_); }));
       }
       if (!encloses_volume(fitted.mesh)) continue;
       if (!piece.noise_share) piece.noise_share = fitted.noise_share;

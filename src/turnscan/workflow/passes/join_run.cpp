@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/reconstruction/finishing/finishing.hpp>
 #include <turnscan/workflow/passes/object_list.hpp>
 
@@ -28,6 +29,7 @@ Result<> keep_object(int number, Reconstruction& r, const RunContext& context) {
   FinishOptions choose;
   choose.object = number;
   TURNSCAN_TRY(finishing::finish_objects(choose, r, context));
+  for (ObjectResult& object : r.objects) object.check = check_surface(object.mesh);
   std::erase_if(r.passes, [&](const FusedPass& pass) { return pass.object != number - 1; });
   for (FusedPass& pass : r.passes) pass.object = -1;
   return {};

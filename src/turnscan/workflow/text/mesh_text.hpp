@@ -15,7 +15,7 @@ std::string size_text(const Box& box);
 std::string check_sentences(const MeshReport& report);
 
 /// A JSON object {"kind": "mesh", "objects": [...]} with counts, size, area, volume and checks of
-/// each mesh; SI units as named by the keys. reports: check_mesh() of each.
+/// each mesh; SI units as named by the keys. reports: check_surface() of each.
 std::string meshes_json(const std::vector<TriangleMesh>& meshes,
                         const std::vector<MeshReport>& reports);
 
