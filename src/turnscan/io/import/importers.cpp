@@ -95,7 +95,8 @@ const std::vector<Importer>& table() {
        open_bop,
        {"depth-unit", "world-up"}},
       {{ImportFormat::kDepthFolder, "depth-folder",
-        "depth images (PNG, TIFF, PGM, NPY or snapshots of RealSense Viewer, in the folder or its "
+        "depth images (PNG, TIFF, EXR, PGM, NPY or snapshots of RealSense Viewer, in the folder or "
+        "its "
         "depth/) and the camera's intrinsics"},
        open_depth_folder,
        {"depth-unit", "intrinsics", "fps", "angles", "pose-direction", "world-up", "clockwise"}}};
@@ -179,10 +180,8 @@ Result<std::string> what_is_there(const fs::path& path) {
   }
   TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(path));
   if (names.empty()) return std::string("an empty folder");
-  for (const char* ending : {".npz", ".exr"})
-    if (any_ends_with(names, ending))
-      return fmt::format("a folder of {} files (write depth as 16-bit PNG or NPY to import it)",
-                         ending);
+  if (any_ends_with(names, ".npz"))
+    return std::string("a folder of .npz files (write depth as 16-bit PNG or NPY to import it)");
   return fmt::format("a folder of {} entries such as {}", names.size(), names.front());
 }
 

@@ -26,7 +26,8 @@ namespace {
 constexpr double kOffMiddle = 0.25;
 constexpr double kSameShape = 0.1;
 /// The most exact first.
-constexpr std::array<const char*, 6> kDepthEndings{".npy", ".tiff", ".tif", ".raw", ".pgm", ".png"};
+constexpr std::array<const char*, 7> kDepthEndings{".npy", ".exr", ".tiff", ".tif",
+                                                   ".raw", ".pgm", ".png"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -84,8 +85,9 @@ Result<DepthFolder> depth_images_in(const fs::path& folder) {
   keep_one_kind(out.names);
   std::stable_sort(out.names.begin(), out.names.end(), precedes);
   if (out.names.empty())
-    return fail_at(out.images.string(), ErrorCode::kTooFewPoints,
-                   "there are no depth images (PNG, PGM, TIFF, NPY or RealSense Viewer's .raw)");
+    return fail_at(
+        out.images.string(), ErrorCode::kTooFewPoints,
+        "there are no depth images (PNG, PGM, TIFF, EXR, NPY or RealSense Viewer's .raw)");
   return out;
 }
 
