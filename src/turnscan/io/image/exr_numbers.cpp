@@ -38,7 +38,7 @@ void* allocate_at_most(std::size_t size) {
 /// A file that is being read, and the steps that unpack its rows.
 struct ExrReader {
   exr_context_t context = nullptr;
-  exr_decode_pipeline_t rows = EXR_DECODE_PIPELINE_INITIALIZER;
+  exr_decode_pipeline_t rows{};
 
   ExrReader() = default;
   ExrReader(const ExrReader&) = delete;
