@@ -14,6 +14,7 @@
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/import/importers_capture.hpp>
 #include <turnscan/io/import/importers_common.hpp>
+#include <turnscan/io/text/text_fields.hpp>
 
 namespace turnscan::importers {
 
