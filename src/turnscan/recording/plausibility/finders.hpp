@@ -30,6 +30,10 @@ void look_at_distance(const SensorInfo& sensor, double there_m, std::string_view
 void look_at_poses(std::size_t number, const SensorInfo& sensor, const std::vector<Frame>& frames,
                    Findings& out);
 
+/// Images that fit their poses only when they are turned round from left to right.
+void look_at_handedness(std::size_t number, const SensorInfo& sensor,
+                        const std::vector<Frame>& frames, Findings& out);
+
 /// 16-bit depth whose bytes are swapped. True if they are: other findings have no meaning then.
 bool look_at_bytes(std::size_t number, const std::vector<Frame>& frames, Findings& out);
 
