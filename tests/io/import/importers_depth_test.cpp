@@ -124,11 +124,27 @@ TEST(DepthFolder, OfStrayScannerIsNotRtabmaps) {
   EXPECT_THAT(sequence->header().source, HasSubstr("images of about 2000 x 1500 pixels"));
 }
 
+TEST(DepthFolder, OfScanNetHasItsCameraAndItsPosesAreNotRead) {
+  const TempFolder folder;
+  ASSERT_TRUE(fs::create_directory(folder / "depth"));
+  ASSERT_TRUE(fs::create_directory(folder / "pose"));
+  ASSERT_TRUE(fs::create_directory(folder / "intrinsic"));
+  put_depth(folder, "depth/0.PNG", 700);
+  folder.put("intrinsic/intrinsic_depth.txt", "580 0 2 0\n0 581 1.5 0\n0 0 1 0\n0 0 0 1\n");
+  const auto sequence = open(folder.path(), with_depth_unit());
+  EXPECT_EQ(sequence->header().sensors[0].intrinsics.fx, 580.0);
+  EXPECT_EQ(sequence->header().sensors[0].intrinsics.cy, 1.5);
+  EXPECT_THAT(sequence->header().source, HasSubstr("pose/ is not read"));
+}
+
 TEST(DepthFolder, OfOtherFilesIsToldToConvertThem) {
   const TempFolder folder;
   folder.put("depth_0.npz", "x");
   folder.put("views.json", "{}");
   EXPECT_THAT(refusal(folder.path()).message, HasSubstr("write depth as 16-bit PNG or NPY"));
+  const TempFolder scans;
+  scans.put("a.e57", "x");
+  EXPECT_THAT(refusal(scans.path()).message, HasSubstr(".e57 files (write its scans as PLY"));
 }
 
 TEST(DepthFolder, TakesTheCalibrationsOfOpenCVRosAndOthers) {

@@ -147,6 +147,28 @@ TEST(Plausibility, KnowsAScannerInsideItsScan) {
   EXPECT_EQ(only(scan).text, "");
 }
 
+TEST(Plausibility, ScansFromADirectionTellTheirUnitByTheirSize) {
+  MemorySequence scan;
+  SensorInfo scanner;
+  scanner.kind = SensorKind::kPointScanner;
+  scanner.viewpoint = {Vec3d::UnitZ(), true};
+  scan.header_value.sensors = {scanner};
+  const auto of_size = [&](float size_m) {
+    scan.data.clear(), scan.infos.clear();
+    Frame frame;
+    for (int i = 0; i < 1000; ++i)
+      frame.points.points.push_back(0.5f * size_m *
+                                    Vec3f(std::sin(float(i)), std::cos(float(i)), 0.0f));
+    scan.add(std::move(frame));
+  };
+  of_size(0.18f);
+  EXPECT_EQ(only(scan).text, "");
+  of_size(180.0f);
+  expect_implausible(scan, "--point-unit (with mm it would be 0.18 m)", "point-unit");
+  of_size(0.18e-3f);
+  expect_implausible(scan, "would be 0.00018 m across", "point-unit");
+}
+
 TEST(Plausibility, SaysWhereNothingTurns) {
   MemorySequence scan = scan_of_bump();
   for (std::size_t i = 0; i < scan.data.size(); ++i)

@@ -68,7 +68,9 @@ Result<NumberImage> parse_npy_header(std::string_view header) {
     if (axis != 1) axes.push_back(axis);
   }
   if (axes.size() != 2)
-    return fail(ErrorCode::kUnsupported, "an array of the shape {}) is not one image", shape);
+    return fail(ErrorCode::kUnsupported,
+                "an array of the shape {}) is not one image; save each in a file of its own",
+                shape);
   out.rows = axes[0];
   out.columns = axes[1];
   return out;

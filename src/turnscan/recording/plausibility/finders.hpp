@@ -13,7 +13,8 @@ void look_at_order(const FrameSequence& sequence, Findings& out);
 /// Intrinsics that are not those of the image. `number`: of the sensor, as in all below.
 void look_at_intrinsics(std::size_t number, const SensorInfo& sensor, Findings& out);
 
-/// Depth beyond the sensor's range or that of all sensors, with the unit that would fit.
+/// Depth beyond the sensor's range or that of all sensors, or scans from a direction that are
+/// larger or smaller than what stands on a turntable, with the unit that would fit.
 void look_at_range(std::size_t number, const SensorInfo& sensor, const std::vector<Frame>& frames,
                    Findings& out);
 
