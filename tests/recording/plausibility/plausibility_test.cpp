@@ -166,7 +166,7 @@ TEST(Plausibility, ScansFromADirectionTellTheirUnitByTheirSize) {
   of_size(180.0f);
   expect_implausible(scan, "--point-unit (with mm it would be 0.18 m)", "point-unit");
   of_size(0.18e-3f);
-  expect_implausible(scan, "would be 0.00018 m across", "point-unit");
+  expect_implausible(scan, "would be 0.000183 m across", "point-unit");
 }
 
 TEST(Plausibility, SaysWhereNothingTurns) {
