@@ -70,5 +70,5 @@ endif()
 turnscan_package(development libturnscan-dev libdevel
   "turntable scanning and reconstruction (development files)"
   "Headers, static libraries and the CMake package of turnscan."
-  "libeigen3-dev, libfmt-dev, libtbb-dev, libexpected-dev, libpng-dev, libjpeg-dev, libdeflate-dev, liblz4-dev, libbz2-dev, libzstd-dev, libsqlite3-dev, libtiff-dev, lib3mf-dev, libmeshoptimizer-dev, libgeos-dev, libembree-dev, libtomlplusplus-dev, libserialport-dev")
+  "libeigen3-dev, libfmt-dev, libtbb-dev, libexpected-dev, libpng-dev, libjpeg-dev, libdeflate-dev, liblz4-dev, libbz2-dev, libzstd-dev, libsqlite3-dev, libtiff-dev, libopenexr-dev, lib3mf-dev, libmeshoptimizer-dev, libgeos-dev, libembree-dev, libtomlplusplus-dev, libserialport-dev")
 include(CPack)

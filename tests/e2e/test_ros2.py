@@ -110,6 +110,10 @@ class Ros2(harness.TestCase):
         ros2_bags.db3(self.dir / "b.db3", messages, compress=True)
         (self.dir / "b.db3").chmod(0o444)
         self.check("b.db3", *self.unit)
+        packed = [Message(m.topic, m.kind, m.time_ns, ros2_bags.zstd(m.data)) for m in messages]
+        for packing in ("", "lz4"):
+            (self.dir / "b.mcap").write_bytes(ros2_bags.mcap(packed, packing))
+            self.check("b.mcap", *self.unit)
         take = self.dir / "take"
         take.mkdir()
         ros2_bags.db3(take / "take_0.db3", messages[:3])

@@ -370,6 +370,7 @@ TEST(CloudText, WhatIsNoPointIsNamed) {
     const auto file = read_cloud(folder / "a.xyz");
     return file ? std::string("read") : file.error().text();
   };
+  EXPECT_THAT(why("// of a scanner\nX Y Z\n1 2 3\n1 2\n"), HasSubstr("line 4"));
   EXPECT_THAT(why("1 2 3\n1 2\n"), HasSubstr("line 2: this is not a point"));
   EXPECT_THAT(why("1 2 3\n1 2 3x\n"), HasSubstr("line 2"));
   EXPECT_THAT(why("1 2 3\n1 2 1e30\n"), HasSubstr("beyond"));

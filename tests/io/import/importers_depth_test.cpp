@@ -5,6 +5,7 @@
 
 #include <turnscan/core/angles.hpp>
 
+#include "tests/io/bytes.hpp"
 #include "tests/io/import/foreign_data.hpp"
 
 namespace turnscan {
@@ -19,6 +20,7 @@ using ::testing::Not;
 using testing::open;
 using testing::put_color;
 using testing::put_depth;
+using testing::raw;
 using testing::refusal;
 using testing::TempFolder;
 
@@ -122,11 +124,27 @@ TEST(DepthFolder, OfStrayScannerIsNotRtabmaps) {
   EXPECT_THAT(sequence->header().source, HasSubstr("images of about 2000 x 1500 pixels"));
 }
 
+TEST(DepthFolder, OfScanNetHasItsCameraAndItsPosesAreNotRead) {
+  const TempFolder folder;
+  ASSERT_TRUE(fs::create_directory(folder / "depth"));
+  ASSERT_TRUE(fs::create_directory(folder / "pose"));
+  ASSERT_TRUE(fs::create_directory(folder / "intrinsic"));
+  put_depth(folder, "depth/0.PNG", 700);
+  folder.put("intrinsic/intrinsic_depth.txt", "580 0 2 0\n0 581 1.5 0\n0 0 1 0\n0 0 0 1\n");
+  const auto sequence = open(folder.path(), with_depth_unit());
+  EXPECT_EQ(sequence->header().sensors[0].intrinsics.fx, 580.0);
+  EXPECT_EQ(sequence->header().sensors[0].intrinsics.cy, 1.5);
+  EXPECT_THAT(sequence->header().source, HasSubstr("pose/ is not read"));
+}
+
 TEST(DepthFolder, OfOtherFilesIsToldToConvertThem) {
   const TempFolder folder;
-  folder.put("depth_0.exr", "x");
+  folder.put("depth_0.npz", "x");
   folder.put("views.json", "{}");
   EXPECT_THAT(refusal(folder.path()).message, HasSubstr("write depth as 16-bit PNG or NPY"));
+  const TempFolder scans;
+  scans.put("a.e57", "x");
+  EXPECT_THAT(refusal(scans.path()).message, HasSubstr(".e57 files (write its scans as PLY"));
 }
 
 TEST(DepthFolder, TakesTheCalibrationsOfOpenCVRosAndOthers) {
@@ -307,6 +325,87 @@ TEST(DepthFolder, TakesSnapshotsOfRealSenseViewer) {
   EXPECT_THAT(refusal(folder.path(), with_depth_unit()).text(), HasSubstr("cannot hold 3 x 2"));
   std::filesystem::remove(folder / "a_Depth_metadata.csv");
   EXPECT_THAT(refusal(folder.path(), with_depth_unit()).text(), HasSubstr("a_Depth_metadata.csv"));
+}
+
+/// An EXR of one part in rows that are not packed, by "OpenEXR File Layout". A value is 2 bytes
+/// (half) or 4; `rows` hold the channels of a row one after the other.
+struct ExrFile {
+  std::vector<std::string> channels{"Y"};
+  std::int32_t type = 2;  ///< 0: whole numbers, 1: half, 2: float
+  std::int32_t columns = 2;
+  std::vector<std::string> rows;
+  char codec = 0;
+  std::int32_t left = 0;  ///< of the data window
+  std::string bytes() const {
+    const auto attribute = [](std::string name, std::string kind, const std::string& value) {
+      return name + '\0' + kind + '\0' + raw(std::int32_t(value.size())) + value;
+    };
+    const auto box = [&](std::int32_t x) {
+      return raw(x) + raw(0) + raw(x + columns - 1) + raw(std::int32_t(rows.size()) - 1);
+    };
+    std::string list, out("\x76\x2f\x31\x01\2\0\0\0", 8);
+    for (const std::string& name : channels)
+      list += name + '\0' + raw(type) + raw(0) + raw(1) + raw(1);
+    out += attribute("channels", "chlist", list + '\0') +
+           attribute("compression", "compression", {codec}) +
+           attribute("dataWindow", "box2i", box(left)) +
+           attribute("displayWindow", "box2i", box(0)) +
+           attribute("lineOrder", "lineOrder", std::string(1, '\0')) +
+           attribute("pixelAspectRatio", "float", raw(1.0f)) +
+           attribute("screenWindowCenter", "v2f", raw(0.0f) + raw(0.0f)) +
+           attribute("screenWindowWidth", "float", raw(1.0f)) + '\0';
+    std::uint64_t at = out.size() + 8 * rows.size();
+    for (const std::string& row : rows) {
+      out += raw(at);
+      at += 8 + row.size();
+    }
+    for (std::size_t y = 0; y < rows.size(); ++y)
+      out += raw(std::int32_t(y)) + raw(std::int32_t(rows[y].size())) + rows[y];
+    return out;
+  }
+};
+
+TEST(DepthFolder, TakesExrOfFloatsHalvesAndWholeNumbers) {
+  ImportOptions options;
+  options.intrinsics = "585,585,1,0.5";
+  const auto pixels = [&](const ExrFile& file) {
+    const TempFolder folder;
+    folder.put("a.exr", file.bytes());
+    return frame_of(*open(folder.path(), options), 0).depth.pixels;
+  };
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const std::string near = raw(0.5f) + raw(kNan);
+  const std::string far = raw(-1.0f) + raw(1e10f);
+  EXPECT_THAT(pixels({.rows = {near, far}}), ElementsAre(5000, 0, 0, 0));
+  EXPECT_THAT(pixels({.channels = {"Depth.Z", "V"}, .rows = {near + far, far + near}}),
+              ElementsAre(5000, 0, 0, 0));
+  EXPECT_THAT(pixels({.channels = {"A", "B", "Z"}, .rows = {far + far + near}}),
+              ElementsAre(5000, 0));
+  const std::string halves = raw(std::uint16_t(0x3800)) + raw(std::uint16_t(0x7e00));
+  EXPECT_THAT(pixels({.type = 1, .rows = {halves}}), ElementsAre(5000, 0));  // 0.5 and no number
+  options.depth_unit_m = 1e-3;
+  const std::string whole = raw(std::uint32_t(700)) + raw(std::uint32_t(70000));
+  EXPECT_THAT(pixels({.type = 0, .rows = {whole}}), ElementsAre(700, 0));
+}
+
+TEST(DepthFolder, ExrThatIsNotDepthOrIsDamagedIsNamed) {
+  ImportOptions options;
+  options.intrinsics = "585,585,1,0.5";
+  const auto why = [&](const std::string& bytes) {
+    const TempFolder folder;
+    folder.put("a.exr", bytes);
+    return refusal(folder.path(), options).text();
+  };
+  const std::string row = raw(0.5f) + raw(0.5f);
+  EXPECT_THAT(why(ExrFile{.channels = {"B", "G", "R"}, .rows = {row + row + row}}.bytes()),
+              HasSubstr("3 channels (B, G, ...), and none is named Z or depth"));
+  EXPECT_THAT(why(ExrFile{.rows = {row}, .codec = 8}.bytes()), HasSubstr("B44 or DWA"));
+  EXPECT_THAT(why(ExrFile{.rows = {row}, .left = 1}.bytes()), HasSubstr("a part of its image"));
+  EXPECT_THAT(why(ExrFile{.columns = 70000, .rows = {row}}.bytes()), HasSubstr("at most"));
+  const std::string two = ExrFile{.rows = {row, row}}.bytes();
+  EXPECT_THAT(why(two.substr(0, two.size() - 9)), HasSubstr("row 1 of 2"));
+  EXPECT_THAT(why(two.substr(0, 100)), HasSubstr("header"));
+  EXPECT_THAT(why(ExrFile{.columns = 60000, .rows = {row}}.bytes()), HasSubstr("row 0 of 1"));
 }
 
 TEST(DepthFolder, DamagedArraysAreNamed) {

@@ -147,6 +147,28 @@ TEST(Plausibility, KnowsAScannerInsideItsScan) {
   EXPECT_EQ(only(scan).text, "");
 }
 
+TEST(Plausibility, ScansFromADirectionTellTheirUnitByTheirSize) {
+  MemorySequence scan;
+  SensorInfo scanner;
+  scanner.kind = SensorKind::kPointScanner;
+  scanner.viewpoint = {Vec3d::UnitZ(), true};
+  scan.header_value.sensors = {scanner};
+  const auto of_size = [&](float size_m) {
+    scan.data.clear(), scan.infos.clear();
+    Frame frame;
+    for (int i = 0; i < 1000; ++i)
+      frame.points.points.push_back(0.5f * size_m *
+                                    Vec3f(std::sin(float(i)), std::cos(float(i)), 0.0f));
+    scan.add(std::move(frame));
+  };
+  of_size(0.18f);
+  EXPECT_EQ(only(scan).text, "");
+  of_size(180.0f);
+  expect_implausible(scan, "--point-unit (with mm it would be 0.18 m)", "point-unit");
+  of_size(0.18e-3f);
+  expect_implausible(scan, "would be 0.000183 m across", "point-unit");
+}
+
 TEST(Plausibility, SaysWhereNothingTurns) {
   MemorySequence scan = scan_of_bump();
   for (std::size_t i = 0; i < scan.data.size(); ++i)
@@ -215,6 +237,38 @@ TEST(Plausibility, KnowsDepthThatIsNotWherePosesLook) {
   MemorySequence scan = scan_around(0.8);
   sensor_of(scan).depth_unit_m = 1e-4 * 2;
   expect_implausible(scan, "the lines of sight of the poses meet 800mm from the sensor");
+}
+
+/// Two balls of different size on either side of the axis that a camera goes round, 0.8 m away.
+MemorySequence scan_of_balls(bool mirrored) {
+  MemorySequence scan = scan_around(0.8);
+  CameraIntrinsics& camera = sensor_of(scan).intrinsics;
+  camera.fx = camera.fy = 130.0;
+  const std::array<std::pair<Vec3d, double>, 2> balls{
+      {{Vec3d(0.05, 0.0, 0.03), 0.12}, {Vec3d(-0.1, 0.03, 0.0), 0.06}}};
+  for (Frame& frame : scan.data) {
+    const Pose T_sensor_world = frame.info.T_table_sensor->inverse();
+    frame.depth = DepthImage(kWidth, kHeight, kNoReturn);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const Vec3d ray = camera.ray(x, y);
+        double nearest = 9.0;
+        for (const auto& [center, radius] : balls) {
+          const Vec3d c = T_sensor_world * center;
+          const double a = ray.squaredNorm(), b = ray.dot(c);
+          const double root = b * b - a * (c.squaredNorm() - radius * radius);
+          if (root > 0.0) nearest = std::min(nearest, (b - std::sqrt(root)) / a);
+        }
+        if (nearest < 9.0)
+          frame.depth.at(mirrored ? kWidth - 1 - x : x, y) = std::uint16_t(1000.0 * nearest);
+      }
+  }
+  return scan;
+}
+
+TEST(Plausibility, KnowsMirroredImagesByTheirPoses) {
+  EXPECT_EQ(only(scan_of_balls(false)).text, "");
+  expect_implausible(scan_of_balls(true), "the images of sensor 0 are mirrored");
 }
 
 TEST(Plausibility, SaysWhereTheSurroundingsMove) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <turnscan/io/file/file_name.hpp>
 #include <turnscan/io/text/text_fields.hpp>
+#include <utility>
 
 namespace turnscan::xyz {
 
@@ -78,10 +79,11 @@ Result<CloudFile> parse_xyz(std::string_view bytes) {
   ColorColumns colors;
   text::LineReader lines(bytes);
   XyzRow row;
-  for (bool first = true; const auto line = lines.next_content(); first = false) {
+  bool first = true;
+  while (const auto line = lines.next_content()) {
     if (line->text.starts_with("//") || text::trimmed(line->text).empty()) continue;
     const bool numbers = parse_row(line->text, row);
-    if (first && (!numbers || row.count == 1)) continue;
+    if (std::exchange(first, false) && (!numbers || row.count == 1)) continue;
     if (!numbers || row.count < 3)
       return fail(ErrorCode::kFormat, "line {}: this is not a point (x y z)", line->number);
     out.cloud.points.push_back(Vec3d(row.values[0], row.values[1], row.values[2]).cast<float>());

@@ -29,5 +29,6 @@ Result<> write_nerfstudio(const std::filesystem::path& folder,
 Result<> write_bop(const std::filesystem::path& folder, const std::vector<PosedImage>& images,
                    const TriangleMesh* mesh);
 Result<> write_tum(const std::filesystem::path& folder, const std::vector<PosedImage>& images);
+Result<> write_meshroom(const std::filesystem::path& folder, const std::vector<PosedImage>& images);
 
 }  // namespace turnscan::exporters

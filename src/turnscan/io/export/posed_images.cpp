@@ -20,7 +20,9 @@ const std::vector<ExportLayout>& export_layouts() {
       {ExportFormat::kBop, "bop", "a scene of the BOP benchmark of object poses", "test/000001/rgb",
        "test/000001/depth", "test/000001/mask", LensModel::kNone, std::nullopt, true},
       {ExportFormat::kTum, "tum", "a TUM RGB-D folder", "rgb", "depth", "mask", LensModel::kNone,
-       kTumStep, true}};
+       kTumStep, true},
+      {ExportFormat::kMeshroom, "meshroom", "AliceVision's cameras.sfm", "images", "depth", "masks",
+       LensModel::kNone, kMillimetre, false}};
   return layouts;
 }
 
@@ -73,6 +75,7 @@ Result<> write_descriptions(const fs::path& folder, const ExportLayout& layout,
                             const std::vector<PosedImage>& images, const TriangleMesh* mesh) {
   if (layout.format == ExportFormat::kBop) return write_bop(folder, images, mesh);
   if (layout.format == ExportFormat::kTum) return write_tum(folder, images);
+  if (layout.format == ExportFormat::kMeshroom) return write_meshroom(folder, images);
   const auto write = layout.format == ExportFormat::kColmap ? &write_colmap : &write_nerfstudio;
   std::vector<PosedImage> colored, others;
   for (const PosedImage& image : images) (image.image.empty() ? others : colored).push_back(image);

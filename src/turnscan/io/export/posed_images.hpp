@@ -14,7 +14,7 @@
 
 namespace turnscan {
 
-enum class ExportFormat { kColmap, kNerfstudio, kBop, kTum };
+enum class ExportFormat { kColmap, kNerfstudio, kBop, kTum, kMeshroom };
 
 namespace exporters {
 
@@ -53,7 +53,8 @@ std::string mask_file(const ExportLayout& layout, std::uint32_t id, bool jpeg);
 /// Writes what accompanies the images in the folder: cameras, poses and, of the mesh (nullptr:
 /// none), points or a model. Images without colour are described in files of their own if others
 /// have colour and the layout wants colour. Fails as write_file_atomically() and write_mesh(), and
-/// with kUnsupported if the layout cannot describe the images (TUM: several cameras).
+/// with kUnsupported if the layout cannot describe the images (TUM: several cameras; Meshroom: no
+/// colour).
 Result<> write_descriptions(const std::filesystem::path& folder, const ExportLayout& layout,
                             const std::vector<PosedImage>& images, const TriangleMesh* mesh);
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstring>
 #include <turnscan/io/file/decode_file.hpp>
+#include <turnscan/io/image/file_numbers.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/image/png_codec.hpp>
-#include <turnscan/io/image/tiff_numbers.hpp>
 #include <turnscan/io/text/text_fields.hpp>
 
 namespace turnscan {
@@ -68,7 +68,9 @@ Result<NumberImage> parse_npy_header(std::string_view header) {
     if (axis != 1) axes.push_back(axis);
   }
   if (axes.size() != 2)
-    return fail(ErrorCode::kUnsupported, "an array of the shape {}) is not one image", shape);
+    return fail(ErrorCode::kUnsupported,
+                "an array of the shape {}) is not one image; save each in a file of its own",
+                shape);
   out.rows = axes[0];
   out.columns = axes[1];
   return out;
@@ -188,13 +190,16 @@ Result<DepthFile> decode_depth_file(std::string_view bytes, const DepthFileOptio
   }
   if (bytes.starts_with(kNpyMagic)) return decode_npy(bytes, options.float_unit_m);
   if (bytes.starts_with("P5")) return decode_pgm(bytes);
-  if (image::looks_like_tiff(bytes)) {
-    TURNSCAN_ASSIGN(const image::TiffNumbers tiff, image::decode_tiff_numbers(bytes));
-    return depth_of(tiff.header, tiff.values, options.float_unit_m);
+  if (image::looks_like_tiff(bytes) || image::looks_like_exr(bytes)) {
+    TURNSCAN_ASSIGN(const image::FileNumbers numbers, image::looks_like_exr(bytes)
+                                                          ? image::decode_exr_numbers(bytes)
+                                                          : image::decode_tiff_numbers(bytes));
+    return depth_of(numbers.header, numbers.values, options.float_unit_m);
   }
   if (image::looks_like_png(bytes)) return decode_depth_png_file(bytes, options.eight_bits);
-  return fail(ErrorCode::kUnsupported,
-              "this is neither a PNG, a PGM, a TIFF nor an NPY file; write depth as one of these");
+  return fail(
+      ErrorCode::kUnsupported,
+      "this is neither a PNG, a PGM, a TIFF, an EXR nor an NPY file; write depth as one of these");
 }
 
 Result<DepthFile> read_depth_file(const std::filesystem::path& path,

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstring>
 #include <memory>
+#include <turnscan/io/image/file_numbers.hpp>
 #include <turnscan/io/image/image_io.hpp>
-#include <turnscan/io/image/tiff_numbers.hpp>
 
 namespace turnscan::image {
 
@@ -111,11 +111,11 @@ bool looks_like_tiff(std::string_view bytes) {
          bytes.starts_with("II+\0"sv) || bytes.starts_with("MM\0+"sv);
 }
 
-Result<TiffNumbers> decode_tiff_numbers(std::string_view bytes) {
+Result<FileNumbers> decode_tiff_numbers(std::string_view bytes) {
   Memory memory{bytes};
   const Tiff tiff = open_tiff(memory);
   if (!tiff) return fail(ErrorCode::kFormat, "damaged TIFF image: its tables are cut off");
-  TiffNumbers out;
+  FileNumbers out;
   TURNSCAN_ASSIGN(out.header, header_of(tiff.get(), bytes.size()));
   const std::size_t row_bytes = out.header.columns * out.header.value_bytes;
   if (TIFFScanlineSize64(tiff.get()) != row_bytes)

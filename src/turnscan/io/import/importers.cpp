@@ -95,7 +95,8 @@ const std::vector<Importer>& table() {
        open_bop,
        {"depth-unit", "world-up"}},
       {{ImportFormat::kDepthFolder, "depth-folder",
-        "depth images (PNG, TIFF, PGM, NPY or snapshots of RealSense Viewer, in the folder or its "
+        "depth images (PNG, TIFF, EXR, PGM, NPY or snapshots of RealSense Viewer, in the folder or "
+        "its "
         "depth/) and the camera's intrinsics"},
        open_depth_folder,
        {"depth-unit", "intrinsics", "fps", "angles", "pose-direction", "world-up", "clockwise"}}};
@@ -170,19 +171,37 @@ bool is_mesh_name(const fs::path& path) {
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
+/// What is met and not read, with what to do about it.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kNotRead{
+    {{"npz", "write depth as 16-bit PNG or NPY, an image a file, to import it"},
+     {"pfm", "write depth as 32-bit TIFF or NPY to import it"},
+     {"bin", "write depth as 16-bit PNG or NPY to import it"},
+     {"jpg", "JPEG cannot hold depth: write it as 16-bit PNG"},
+     {"zip", "unpack it, and import the folder"},
+     {"e57", "write its scans as PLY, e.g. with CloudCompare, a file each"},
+     {"ptx", "write its scans as PLY, e.g. with CloudCompare, a file each"},
+     {"las", "write its scans as PLY, e.g. with CloudCompare, a file each"},
+     {"stl", "meshes do not say from where they were seen: import the scans as PLY"},
+     {"obj", "meshes do not say from where they were seen: import the scans as PLY"},
+     {"oni", "write its images as 16-bit PNG"},
+     {"mp4", "a video has no depth"},
+     // Last, because tables of angles have it, too.
+     {"csv", "write depth as 16-bit PNG or NPY to import it"}}};
+
 /// Description of an unrecognised path for the error.
 Result<std::string> what_is_there(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) {
     const std::string ending = path.extension().string();
+    for (const auto& [kind, advice] : kNotRead)
+      if (file::lower_extension(path) == kind) return fmt::format("a {} file ({})", ending, advice);
     return ending.empty() ? "a file without an ending" : fmt::format("a {} file", ending);
   }
   TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(path));
   if (names.empty()) return std::string("an empty folder");
-  for (const char* ending : {".npz", ".exr"})
-    if (any_ends_with(names, ending))
-      return fmt::format("a folder of {} files (write depth as 16-bit PNG or NPY to import it)",
-                         ending);
+  for (const auto& [kind, advice] : kNotRead)
+    if (file::lower_extension(names.front()) == kind || file::lower_extension(names.back()) == kind)
+      return fmt::format("a folder of .{} files ({})", kind, advice);
   return fmt::format("a folder of {} entries such as {}", names.size(), names.front());
 }
 

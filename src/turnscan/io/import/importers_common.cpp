@@ -160,8 +160,8 @@ Result<CameraIntrinsics> intrinsics_from_file(const fs::path& path) {
 }
 
 Result<std::optional<CameraIntrinsics>> intrinsics_beside(const fs::path& folder) {
-  for (const char* name :
-       {"camera_matrix.csv", "cam_K.txt", "camera-intrinsics.txt", "intrinsics.txt"}) {
+  for (const char* name : {"camera_matrix.csv", "cam_K.txt", "camera-intrinsics.txt",
+                           "intrinsics.txt", "intrinsic/intrinsic_depth.txt"}) {
     TURNSCAN_ASSIGN(const bool there, file::is_there(folder / name));
     if (there) return intrinsics_from_file(folder / name);
   }

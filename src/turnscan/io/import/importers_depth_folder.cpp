@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <turnscan/core/units.hpp>
@@ -14,6 +15,7 @@
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/import/importers_capture.hpp>
 #include <turnscan/io/import/importers_common.hpp>
+#include <turnscan/io/text/text_fields.hpp>
 
 namespace turnscan::importers {
 
@@ -26,7 +28,8 @@ namespace {
 constexpr double kOffMiddle = 0.25;
 constexpr double kSameShape = 0.1;
 /// The most exact first.
-constexpr std::array<const char*, 6> kDepthEndings{".npy", ".tiff", ".tif", ".raw", ".pgm", ".png"};
+constexpr std::array<const char*, 7> kDepthEndings{".npy", ".exr", ".tiff", ".tif",
+                                                   ".raw", ".pgm", ".png"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -53,15 +56,23 @@ bool precedes(std::string_view a, std::string_view b) {
   return a.size() < b.size();
 }
 
+/// Windows programs write .PNG, too.
+bool ends_with_any_case(std::string_view name, std::string_view ending) {
+  return name.size() >= ending.size() &&
+         std::equal(
+             ending.begin(), ending.end(), name.end() - std::ptrdiff_t(ending.size()),
+             [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
+}
+
 /// Of arrays beside their pictures, or depth beside a few other files, the most frequent kind.
 void keep_one_kind(std::vector<std::string>& names) {
   const auto count = [&](const char* ending) {
     return std::count_if(names.begin(), names.end(),
-                         [&](const std::string& name) { return name.ends_with(ending); });
+                         [&](const std::string& name) { return ends_with_any_case(name, ending); });
   };
   const auto kind = std::max_element(kDepthEndings.begin(), kDepthEndings.end(),
                                      [&](auto a, auto b) { return count(a) < count(b); });
-  std::erase_if(names, [&](const std::string& name) { return !name.ends_with(*kind); });
+  std::erase_if(names, [&](const std::string& name) { return !ends_with_any_case(name, *kind); });
 }
 
 struct DepthFolder {
@@ -77,15 +88,17 @@ Result<DepthFolder> depth_images_in(const fs::path& folder) {
   TURNSCAN_ASSIGN(out.names, names_in(out.images));
   std::erase_if(out.names, [](const std::string& name) { return !is_depth_name(name); });
   const auto of_depth = [](const std::string& name) {
-    return name.find("depth") != std::string::npos || name.find("Depth") != std::string::npos;
+    return name.find("depth") != std::string::npos || name.find("Depth") != std::string::npos ||
+           name.find("DEPTH") != std::string::npos;
   };
   if (std::any_of(out.names.begin(), out.names.end(), of_depth))
     std::erase_if(out.names, [&](const std::string& name) { return !of_depth(name); });
   keep_one_kind(out.names);
   std::stable_sort(out.names.begin(), out.names.end(), precedes);
   if (out.names.empty())
-    return fail_at(out.images.string(), ErrorCode::kTooFewPoints,
-                   "there are no depth images (PNG, PGM, TIFF, NPY or RealSense Viewer's .raw)");
+    return fail_at(
+        out.images.string(), ErrorCode::kTooFewPoints,
+        "there are no depth images (PNG, PGM, TIFF, EXR, NPY or RealSense Viewer's .raw)");
   return out;
 }
 
@@ -197,7 +210,7 @@ void note_depth_files(const DepthFile& first, const DepthFileOptions& files,
 
 bool is_depth_name(std::string_view name) {
   return std::any_of(kDepthEndings.begin(), kDepthEndings.end(),
-                     [&](const char* ending) { return name.ends_with(ending); });
+                     [&](const char* ending) { return ends_with_any_case(name, ending); });
 }
 
 OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& options) {
@@ -225,6 +238,11 @@ OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& option
                                                       : std::nullopt));
   if (first.floats) sensor.depth_unit_m = kFloatDepthStep_m;
   note_depth_files(first, files, header);
+  TURNSCAN_ASSIGN(const bool poses, file::is_there(folder / "pose"));
+  if (poses && options.angles.empty())
+    add_note(header,
+             "the folder's pose/ is not read; a table of them is (--angles, with the columns file, "
+             "tx, ty, tz, qx, qy, qz, qw)");
   std::vector<ForeignFrame> frames;
   for (const std::string& name : depth.names) {
     ForeignFrame& frame = frames.emplace_back();

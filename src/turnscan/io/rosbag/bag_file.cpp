@@ -1,6 +1,9 @@
+#include <zstd.h>
+
 #include <algorithm>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/rosbag/bag_part.hpp>
+#include <turnscan/io/rosbag/chunk_codec.hpp>
 
 namespace turnscan::rosbag {
 
@@ -21,6 +24,18 @@ PartResult open_part(const fs::path& path, std::uint32_t number, BagIndex& index
   if (begin.starts_with(kZstdMagic))
     return fail(ErrorCode::kUnsupported, "the whole file is compressed; unpack it with unzstd");
   return fail(ErrorCode::kFormat, "this is no ROS bag; give one");
+}
+
+/// A message that rosbag2 compressed (compression_mode: message).
+Result<std::string> unpacked_message(std::string_view bytes, const file::ReadBudget* charged) {
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR)
+    return fail(ErrorCode::kFormat, "a compressed message does not say its size");
+  if (size > Bag::kMaxMessageBytes)
+    return fail(ErrorCode::kResourceLimit, "a message of {} bytes is longer than can be read",
+                size);
+  if (charged != nullptr) TURNSCAN_TRY(charged->unpack(size));
+  return unpack(Packing::kZstd, bytes, std::size_t(size));
 }
 
 /// The files that rosbag2's metadata.yaml lists ("relative_file_paths:", then "- NAME" a line); of
@@ -120,8 +135,16 @@ std::optional<MessagePlace> Bag::first(std::string_view topic) const {
 }
 
 Result<Payload> Bag::read(const MessagePlace& place, std::size_t most) const {
-  auto out = parts_[place.file]->read(place, most, opening_ ? &budget() : nullptr);
-  if (out) out->wire = index_->connection(place).wire();
+  const file::ReadBudget* charged = opening_ ? &budget() : nullptr;
+  const BagPart& part = *parts_[place.file];
+  TURNSCAN_ASSIGN(Payload out, part.read(place, most, charged));
+  if (out.bytes.starts_with(kZstdMagic)) {  // which no message in ROS's formats begins with
+    TURNSCAN_ASSIGN(out, part.read(place, kMaxMessageBytes, charged));
+    TURNSCAN_ASSIGN(std::string bytes, unpacked_message(out.bytes, charged));
+    out.owner = std::make_shared<const std::string>(std::move(bytes));
+    out.bytes = std::string_view(*out.owner).substr(0, most);
+  }
+  out.wire = index_->connection(place).wire();
   return out;
 }
 

@@ -1,11 +1,9 @@
 #include <sqlite3.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <mutex>
 #include <turnscan/io/file/clean_name.hpp>
 #include <turnscan/io/rosbag/bag_part.hpp>
-#include <turnscan/io/rosbag/chunk_codec.hpp>
 
 namespace turnscan::rosbag {
 
@@ -14,7 +12,6 @@ namespace {
 constexpr int kOperations = 1000;              // between two looks at the budget ...
 constexpr std::uint64_t kCharged = 16U << 10;  // ... to which they count as so many bytes
 constexpr int kMaxExpression = 100;            // depth of an expression in a schema
-constexpr std::string_view kZstdBegin = "\x28\xb5\x2f\xfd";
 
 struct CloseDatabase {
   void operator()(sqlite3* database) const { sqlite3_close(database); }
@@ -166,18 +163,6 @@ Result<> SqlitePart::list(BagIndex& index) {
   return {};
 }
 
-/// A message that rosbag2 compressed (compression_mode: message).
-Result<std::string> unpacked_message(const std::string& bytes, const file::ReadBudget* charged) {
-  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR)
-    return fail(ErrorCode::kFormat, "a compressed message does not say its size");
-  if (size > Bag::kMaxMessageBytes)
-    return fail(ErrorCode::kResourceLimit, "a message of {} bytes is longer than can be read",
-                size);
-  if (charged != nullptr) TURNSCAN_TRY(charged->unpack(size));
-  return unpack(Packing::kZstd, bytes, std::size_t(size));
-}
-
 Result<Payload> SqlitePart::read(const MessagePlace& place, std::size_t most,
                                  const file::ReadBudget* charged) const {
   std::string bytes;
@@ -192,20 +177,11 @@ Result<Payload> SqlitePart::read(const MessagePlace& place, std::size_t most,
     if (size > Bag::kMaxMessageBytes)
       return fail(ErrorCode::kResourceLimit, "a message of {} bytes is longer than can be read",
                   size);
-    std::array<char, 4> begin{};
-    const bool looked = size >= begin.size() &&
-                        sqlite3_blob_read(made, begin.data(), int(begin.size()), 0) == SQLITE_OK;
-    // A compressed message is needed as a whole.
-    const bool packed = looked && std::string_view(begin.data(), begin.size()) == kZstdBegin;
-    const std::size_t wanted = packed ? size : std::min(size, most);
+    const std::size_t wanted = std::min(size, most);
     if (charged != nullptr) TURNSCAN_TRY(charged->unpack(wanted));
     bytes.resize(wanted);
     if (sqlite3_blob_read(made, bytes.data(), int(wanted), 0) != SQLITE_OK)
       return refused(database_.get());
-  }
-  if (bytes.starts_with(kZstdBegin)) {
-    TURNSCAN_ASSIGN(bytes, unpacked_message(bytes, charged));
-    bytes.resize(std::min(bytes.size(), most));
   }
   Payload out;
   out.owner = std::make_shared<const std::string>(std::move(bytes));

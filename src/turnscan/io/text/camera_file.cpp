@@ -107,6 +107,9 @@ Result<CameraParts> parts_of_json(std::string_view text) {
 
 Result<CameraIntrinsics> parse_camera_file(std::string_view text) {
   if (const auto numbers = parse_numbers(text, 9)) return camera_of_parts({*numbers, {}, 0.0, 0.0});
+  if (const auto m = parse_numbers(text, 16))  // homogeneous, as ScanNet writes it
+    return camera_of_parts(
+        {{(*m)[0], (*m)[1], (*m)[2], (*m)[4], (*m)[5], (*m)[6], 0.0, 0.0, 1.0}, {}, 0.0, 0.0});
   for (const std::string_view lens : {"equidistant", "fisheye"})
     if (text.find(lens) != text.npos)
       return fail(ErrorCode::kUnsupported,

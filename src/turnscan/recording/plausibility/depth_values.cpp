@@ -20,6 +20,8 @@ constexpr std::array<std::pair<double, const char*>, 5> kPointUnits{
 /// nearest to 2.5 of the farthest, and the D435's smallest images begin at half of it.
 constexpr double kNearer = 0.8, kFarther = 2.5, kNearest = 0.4;
 constexpr double kNearTenth = 0.1;
+/// What stands on a turntable, at its widest; the window asks for a mesh's unit beyond the same.
+constexpr double kSmallestObject_m = 0.004, kLargestObject_m = 2.5;
 constexpr std::size_t kPixelStep = 7;
 
 struct DepthRange {
@@ -85,6 +87,31 @@ std::string unit_that_fits(bool camera, double distance_m, double unit_m, const 
   return out;
 }
 
+/// Scans of which only the direction is known from which they were seen.
+void look_at_size(std::size_t number, const std::vector<Frame>& frames, Findings& out) {
+  Vec3d sum = Vec3d::Zero();
+  std::vector<Vec3d> points;
+  for (const Frame& frame : frames)
+    for (std::size_t i = 0; i < frame.points.size(); i += kPixelStep) {
+      points.push_back(frame.points.points[i].cast<double>());
+      sum += points.back();
+    }
+  std::vector<double> from_middle;
+  for (const Vec3d& p : points) from_middle.push_back((p - sum / double(points.size())).norm());
+  const double size_m = 2.0 * quantile(from_middle, 1.0 - kNearTenth);
+  if (!(size_m > 0.0) || (size_m >= kSmallestObject_m && size_m <= kLargestObject_m)) return;
+  out.push_back(
+      {Plausibility::kImplausible,
+       fmt::format("nine tenths of what sensor {} sees would be {:.3g} m across, and what "
+                   "stands on a turntable is {} to {}: the unit is another one; state it "
+                   "when importing, --point-unit{}",
+                   number, size_m, format_quantity(kSmallestObject_m, Quantity::kLength),
+                   format_quantity(kLargestObject_m, Quantity::kLength),
+                   unit_that_fits(false, size_m, 1.0,
+                                  {kSmallestObject_m / kNearest, kLargestObject_m, ""})),
+       "point-unit"});
+}
+
 /// Mean difference of neighbours that both have a return.
 double roughness(const std::vector<Frame>& frames, bool swapped) {
   const auto value = [&](std::uint16_t raw) {
@@ -123,7 +150,7 @@ bool look_at_bytes(std::size_t number, const std::vector<Frame>& frames, Finding
 void look_at_range(std::size_t number, const SensorInfo& sensor, const std::vector<Frame>& frames,
                    Findings& out) {
   const bool camera = sensor.kind == SensorKind::kDepthCamera;
-  if (!camera && sensor.viewpoint.parallel) return;
+  if (!camera && sensor.viewpoint.parallel) return look_at_size(number, frames, out);
   std::vector<double> distances = distances_of(sensor, frames);
   const double distance = quantile(distances, kNearTenth);
   const auto range = range_of(camera ? sensor.model : std::string());

@@ -13,7 +13,8 @@ void look_at_order(const FrameSequence& sequence, Findings& out);
 /// Intrinsics that are not those of the image. `number`: of the sensor, as in all below.
 void look_at_intrinsics(std::size_t number, const SensorInfo& sensor, Findings& out);
 
-/// Depth beyond the sensor's range or that of all sensors, with the unit that would fit.
+/// Depth beyond the sensor's range or that of all sensors, or scans from a direction that are
+/// larger or smaller than what stands on a turntable, with the unit that would fit.
 void look_at_range(std::size_t number, const SensorInfo& sensor, const std::vector<Frame>& frames,
                    Findings& out);
 
@@ -29,6 +30,10 @@ void look_at_distance(const SensorInfo& sensor, double there_m, std::string_view
 /// another convention do, and depth that is nowhere near what they look at.
 void look_at_poses(std::size_t number, const SensorInfo& sensor, const std::vector<Frame>& frames,
                    Findings& out);
+
+/// Images that fit their poses only when they are turned round from left to right.
+void look_at_handedness(std::size_t number, const SensorInfo& sensor,
+                        const std::vector<Frame>& frames, Findings& out);
 
 /// 16-bit depth whose bytes are swapped. True if they are: other findings have no meaning then.
 bool look_at_bytes(std::size_t number, const std::vector<Frame>& frames, Findings& out);

@@ -54,10 +54,11 @@ Result<std::vector<PlausibilityFinding>> find_implausible(const FrameSequence& s
     const bool posed = std::any_of(frames.begin(), frames.end(), [](const Frame& f) {
       return f.info.T_table_sensor.has_value();
     });
-    if (posed)
-      plausibility::look_at_poses(i, sensors[i], frames, out);
-    else
-      plausibility::look_at_motion(i, frames, out);
+    const std::size_t unposed = out.size();
+    if (posed) plausibility::look_at_poses(i, sensors[i], frames, out);
+    if (posed && out.size() == unposed)
+      plausibility::look_at_handedness(i, sensors[i], frames, out);
+    if (!posed) plausibility::look_at_motion(i, frames, out);
     TURNSCAN_TRY(plausibility::look_at_succession(sequence, i, frames, context, out));
   }
   return out;

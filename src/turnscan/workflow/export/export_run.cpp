@@ -234,7 +234,7 @@ OptionTable describe(ExportOptions& o) {
   OptionTable table;
   table.number("depth-unit", o.depth_unit_m, Quantity::kLength, {1e-7, 1.0},
                "Length of one step of the depth images that are written; automatic: 1 mm for "
-               "colmap and nerfstudio, 0.2 mm for tum, the recording's for bop");
+               "colmap, nerfstudio and meshroom, 0.2 mm for tum, the recording's for bop");
   table.number("speed", o.speed_rad_s, Quantity::kAngularSpeed, {-100.0, 100.0},
                "Speed of the turntable instead of the recording's angles, counter-clockwise seen "
                "from above is positive");

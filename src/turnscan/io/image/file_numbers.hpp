@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of one image in a TIFF file, by libtiff.
+// Numbers of one image in a TIFF file, by libtiff, or in an OpenEXR file, by OpenEXR's own library.
 
 #include <cstdint>
 #include <string>
@@ -16,17 +16,23 @@ struct NumberImage {
   std::uint32_t rows = 0, columns = 0;
 };
 
-struct TiffNumbers {
+struct FileNumbers {
   NumberImage header;
   std::string values;
 };
 
 bool looks_like_tiff(std::string_view bytes);
+bool looks_like_exr(std::string_view bytes);
 
 /// The first image of the file: one number a pixel, of 8, 16 or 32 bits (floats: 32 or 64), in
 /// strips, not packed or by LZW, deflate or PackBits. Colours, tiles and more than kMaxImagePixels
 /// pixels fail with kUnsupported and kResourceLimit before memory is allocated; damaged and
 /// truncated files with kFormat.
-Result<TiffNumbers> decode_tiff_numbers(std::string_view bytes);
+Result<FileNumbers> decode_tiff_numbers(std::string_view bytes);
+
+/// The first image of the file: its only channel, or the one that is named as depth (Z, or depth
+/// in any layer), of floats, halves (floats here) or whole numbers, in rows, not packed or by a
+/// codec that loses nothing. Fails as decode_tiff_numbers does.
+Result<FileNumbers> decode_exr_numbers(std::string_view bytes);
 
 }  // namespace turnscan::image
