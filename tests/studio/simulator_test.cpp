@@ -16,6 +16,7 @@
 #include "driver.hpp"
 #include "explorer/explorer.hpp"
 #include "simulator/scanner_editor.hpp"
+#include "simulator/sweep_panel.hpp"
 #include "view/scene_view.hpp"
 #include "window/main_window.hpp"
 
@@ -127,6 +128,29 @@ TEST_F(Simulator, AScannerOfTheFieldsRecordsTheBytesOfItsFile) {
   EXPECT_TRUE(editor->error().contains("near = 5000mm"));
   while (!mode().undo_text().isEmpty()) QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(mode().scene().scanners.at(0).model, "kinect-v2");
+}
+
+TEST_F(Simulator, ASweepPlotsTheCoverageAndPlacesTheScannerAtItsBest) {
+  ASSERT_TRUE(type(named(mode(), "option:frames"), "6"));
+  mode().add_scanner("kinect-v1");  // it stays as it is, and the selected one is swept
+  ASSERT_TRUE(wait_for([&] { return mode().ready(); }));
+  auto* sweep = mode().findChild<SweepPanel*>();
+  ASSERT_NE(sweep, nullptr);
+  auto* option = qobject_cast<QComboBox*>(named(*sweep, "sweep_option"));
+  option->setCurrentIndex(option->findData("tilt"));
+  ASSERT_TRUE(type(named(*sweep, "sweep_values"), "-20deg..20deg/10deg"));
+  ASSERT_TRUE(click(button_with(*sweep, "Sweep")));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_EQ(sweep->swept().size(), 5u);
+  EXPECT_GT(best_of(sweep->swept()).covered, sweep->swept().back().covered);
+  keep_picture(window, "simulator-sweep");
+  ASSERT_TRUE(click(button_with(*sweep, "Use the best")));
+  const ScannerSetup placed =
+      *scanner_setup(mode().scene().scanners.at(1), mode().scene().placement);
+  EXPECT_NEAR(placed.placement.tilt_rad, best_of(sweep->swept()).value, 1e-6);
+  ASSERT_TRUE(type(named(*sweep, "sweep_values"), "20"));
+  ASSERT_TRUE(click(button_with(*sweep, "Sweep")));
+  EXPECT_TRUE(crowded(window).empty());
 }
 
 TEST_F(Simulator, AScannerIsPlacedByDragging) {

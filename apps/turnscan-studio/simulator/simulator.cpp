@@ -45,6 +45,7 @@ SimulatorMode::SimulatorMode(const Services& services, QWidget* parent)
   build_scanners();
   build_run();
   build_coverage();
+  build_sweep();
   build_options();
   panel()->addStretch();
   view().set_tool(tool_.get());

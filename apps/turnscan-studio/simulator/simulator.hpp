@@ -77,6 +77,7 @@ class SimulatorMode : public Mode {
   void build_options();
   void build_run();
   void build_coverage();
+  void build_sweep();
   void load_preview();
   void draw_rig();
   void draw_scanner(RigScanner& scanner);

@@ -17,6 +17,7 @@
 #include "app/paths.hpp"
 #include "simulator/rig_drawing.hpp"
 #include "simulator/simulator_parts.hpp"
+#include "simulator/sweep_panel.hpp"
 #include "view/scene_view.hpp"
 #include "widgets/section.hpp"
 #include "widgets/theme.hpp"
@@ -267,6 +268,36 @@ void SimulatorMode::draw_scanner(RigScanner& scanner) {
 void SimulatorMode::show_titles() {
   for (std::size_t i = 0; i < scanners_.size(); ++i)
     list_->item(int(i))->setText(scanners_[i]->editor->title());
+}
+
+/// The selected scanner is swept: the others keep their places.
+void SimulatorMode::build_sweep() {
+  auto* section = new Section(tr("Sweep"), false, this);
+  const auto swept_scene = [this]() -> Result<SceneDescription> {
+    const int row = list_->currentRow();
+    if (row < 0)
+      return fail(ErrorCode::kInvalidOption, "there is no scanner; add one and select it");
+    SceneDescription scene = this->scene();
+    scene.placement = scanners_[std::size_t(row)]->editor->placement();
+    scene.scanners.clear();
+    for (const auto& scanner : scanners_)
+      scene.scanners.push_back(scanner->editor->entry(scene.placement));
+    return scene;
+  };
+  auto* sweep = new SweepPanel(jobs(), swept_scene, *coverage_, section);
+  section->body()->addWidget(
+      quiet_label(tr("Coverage of the selected scanner as it is turned:"), section));
+  section->body()->addWidget(sweep);
+  panel()->addWidget(section);
+  connect(sweep, &SweepPanel::best_wanted, this,
+          [this](const std::string& option, const std::string& value) {
+            const int row = list_->currentRow();
+            if (row < 0) return;
+            RigScanner& scanner = *scanners_[std::size_t(row)];
+            (void)describe(scanner.editor->placement()).set(option, value);
+            drag_scanner(scanner);
+            place_changed();
+          });
 }
 
 /// The selected scanner's frustum is emphasised, so that several remain legible.

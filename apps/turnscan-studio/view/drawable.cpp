@@ -206,6 +206,12 @@ DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading, Texels texe
   return out;
 }
 
+DrawablePtr make_drawable(const TriangleMesh& mesh, const TriangleMesh& moving) {
+  auto out = std::make_shared<Drawable>(*make_drawable(mesh));
+  out->coarse = moving.empty() ? nullptr : make_surface(moving);
+  return out;
+}
+
 DrawablePtr make_drawable(const PointCloud& cloud, double spacing_m) {
   auto out = std::make_shared<Drawable>();
   out->kind = DrawableKind::kCloud;
