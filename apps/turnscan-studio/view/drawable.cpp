@@ -207,7 +207,11 @@ DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading, Texels texe
 }
 
 DrawablePtr make_drawable(const TriangleMesh& mesh, const TriangleMesh& moving) {
-  auto out = std::make_shared<Drawable>(*make_drawable(mesh));
+  auto out = std::make_shared<Drawable>();
+  out->box = bounds(mesh.vertices);
+  out->points = mesh.vertices.size();
+  out->colored = !mesh.colors.empty();
+  out->chunks.push_back(make_surface(mesh));
   out->coarse = moving.empty() ? nullptr : make_surface(moving);
   return out;
 }
