@@ -45,6 +45,23 @@ TEST(ScannerFile, HoldsTheKinectAsMeasured) {
     EXPECT_NEAR(axial_sigma_m(model.noise, z, 0.0) * 1e3, 1.5 - 0.5 * z + 0.3 * z * z, 1e-6);
 }
 
+TEST(ScannerFile, IsWrittenWithOtherValuesAndNothingElseChanged) {
+  const TempFolder folder;
+  const auto text = scanner_toml("kinect-v2", {{"name", "short"}, {"far", "2m"}, {"bias", "1mm"}});
+  ASSERT_TRUE(text) << text.error().text();
+  const auto made = read_scanner(folder.put("short.toml", *text));
+  ASSERT_TRUE(made) << made.error().text();
+  const ScannerModel preset = *find_scanner("kinect-v2");
+  EXPECT_EQ(made->name, "short");
+  EXPECT_EQ(made->far_m, 2.0);
+  EXPECT_EQ(made->noise.bias_m, 0.001);
+  EXPECT_EQ(made->near_m, preset.near_m);
+  // More digits than are shown.
+  EXPECT_EQ(made->noise.axial_constant_m, preset.noise.axial_constant_m);
+  EXPECT_FALSE(scanner_toml("kinect-v2", {{"near", "9m"}}));
+  EXPECT_FALSE(scanner_toml("kinect-v2", {{"distance", "9m"}}));
+}
+
 TEST(ScannerFile, HoldsTheKinectV1AsPublished) {
   const ScannerModel model = *find_scanner("kinect-v1");
   // Nguyen, Izadi, Lovell 2012.

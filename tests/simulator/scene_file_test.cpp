@@ -144,10 +144,26 @@ TEST(ScannerEntry, HasItsOwnPlaceBehindCommas) {
   const auto entry = parse_scanner_entry("kinect-v2,azimuth=90deg,roll=-5deg");
   ASSERT_TRUE(entry);
   EXPECT_EQ(entry->model, "kinect-v2");
-  ASSERT_EQ(entry->placement.size(), 2u);
-  EXPECT_EQ(entry->placement[1].first, "roll");
-  EXPECT_EQ(entry->placement[1].second, "-5deg");
-  EXPECT_TRUE(parse_scanner_entry("ideal")->placement.empty());
+  ASSERT_EQ(entry->options.size(), 2u);
+  EXPECT_EQ(entry->options[1].first, "roll");
+  EXPECT_EQ(entry->options[1].second, "-5deg");
+  EXPECT_TRUE(parse_scanner_entry("ideal")->options.empty());
+}
+
+TEST(ScannerEntry, HasValuesOfItsOwnForKeysOfItsFile) {
+  SceneDescription scene;
+  scene.scanners = {*parse_scanner_entry("kinect-v2,far=2m,lateral-length=2mm,pan=3deg")};
+  const auto options = scan_options(scene);
+  ASSERT_TRUE(options) << options.error().text();
+  EXPECT_EQ(options->scanners[0].model.far_m, 2.0);
+  EXPECT_EQ(options->scanners[0].model.near_m, 0.5);
+  EXPECT_EQ(options->scanners[0].model.noise.lateral_m, 0.002);
+  EXPECT_NEAR(options->scanners[0].placement.pan_rad, 3 * kRadiansPerDegree, 1e-12);
+  SceneDescription again;
+  ASSERT_TRUE(parse_scene(scene_toml(scene), "scene.toml", again));
+  EXPECT_EQ(scene_toml(again), scene_toml(scene));
+  scene.scanners = {*parse_scanner_entry("kinect-v2,near=5m")};
+  EXPECT_NE(scan_options(scene).error().text().find("near = 5000mm"), std::string::npos);
 }
 
 TEST(ScannerEntry, RefusesWhatHasNoMeaning) {

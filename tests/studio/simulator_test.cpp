@@ -7,6 +7,7 @@
 #include <QLineEdit>
 #include <QMouseEvent>
 #include <QPushButton>
+#include <QSlider>
 #include <QTableWidget>
 #include <QTest>
 #include <turnscan/simulator/scene_file.hpp>
@@ -14,6 +15,8 @@
 #include "app/jobs.hpp"
 #include "driver.hpp"
 #include "explorer/explorer.hpp"
+#include "simulator/scanner_editor.hpp"
+#include "simulator/sweep_panel.hpp"
 #include "view/scene_view.hpp"
 #include "window/main_window.hpp"
 
@@ -73,6 +76,81 @@ TEST_F(Simulator, RecordsTheBytesOfTheCommandLineAndSendsThemToReconstruction) {
   ASSERT_TRUE(click(named(mode(), "simulator_reconstruct")));
   ASSERT_TRUE(wait_idle(window));
   EXPECT_EQ(window.explorer().store().models().size(), 2u);
+}
+
+TEST_F(Simulator, AScannerOfTheFieldsRecordsTheBytesOfItsFile) {
+  const auto slide = [&](const char* name, int steps) {
+    auto* slider = qobject_cast<QSlider*>(named(mode(), QString("slider:") + name));
+    ASSERT_NE(slider, nullptr) << name;
+    slider->setValue(slider->value() + steps);
+  };
+  const QImage before = mode().view().screenshot();
+  slide("near", -40);
+  slide("far", -60);
+  slide("vertical-fov", 50);
+  slide("columns", -150);
+  slide("rows", -150);
+  slide("pan", 3);
+  ASSERT_TRUE(type(named(mode(), "option:baseline"), "55"));
+  ASSERT_TRUE(type(named(mode(), "option:frames"), "6"));
+  ASSERT_TRUE(wait_for([&] { return mode().ready() && mode().view().settled(); }));
+  EXPECT_NE(mode().view().screenshot(), before);
+  keep_picture(window, "simulator-editor");
+  const ScannerEntry entry = mode().scene().scanners.at(0);
+  EXPECT_EQ(entry.model, "kinect-v2");
+  EXPECT_GE(entry.options.size(), 8u);  // the focal length, too
+  auto* editor = mode().findChild<ScannerEditor*>();
+  ASSERT_NE(editor, nullptr);
+  const auto scan = [&](const QString& to) {
+    mode().set_folder(folder.filePath(to));
+    ASSERT_TRUE(click(button_with(mode(), "Scan")));
+    ASSERT_TRUE(wait_idle(window));
+    ASSERT_NE(mode().result(), nullptr);
+  };
+  ASSERT_TRUE(type(named(mode(), "option:name"), "own"));
+  scan("fields");
+  editor->save_as(folder.filePath("own.toml"));
+  EXPECT_TRUE(mode().scene().scanners.at(0).model.ends_with("own.toml"));
+  EXPECT_EQ(mode().scene().scanners.at(0).options.size(), 1u);  // pan
+  ASSERT_EQ(
+      run_command_line({"simulate", "builtin:letter-a", "-o", folder.filePath("cli"), "--frames",
+                        "6", "--pan", "3deg", "--scanner", folder.filePath("own.toml")}),
+      0);
+  for (const char* file :
+       {"recording.json", "frames.csv", "depth/000003.png", "truth/poses.csv", "truth/object.ply"})
+    EXPECT_TRUE(content(folder.filePath(QString("fields/") + file)) ==
+                content(folder.filePath(QString("cli/") + file)))
+        << file;
+  // A preset fills the fields, and what cannot be is said.
+  editor->fill("gocator");
+  EXPECT_EQ(mode().scene().scanners.at(0).model, "gocator");
+  ASSERT_TRUE(type(named(mode(), "option:near"), "5m"));
+  EXPECT_TRUE(editor->error().contains("near = 5000mm"));
+  while (!mode().undo_text().isEmpty()) QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(mode().scene().scanners.at(0).model, "kinect-v2");
+}
+
+TEST_F(Simulator, ASweepPlotsTheCoverageAndPlacesTheScannerAtItsBest) {
+  ASSERT_TRUE(type(named(mode(), "option:frames"), "6"));
+  mode().add_scanner("kinect-v1");  // it stays as it is, and the selected one is swept
+  ASSERT_TRUE(wait_for([&] { return mode().ready(); }));
+  auto* sweep = mode().findChild<SweepPanel*>();
+  ASSERT_NE(sweep, nullptr);
+  auto* option = qobject_cast<QComboBox*>(named(*sweep, "sweep_option"));
+  option->setCurrentIndex(option->findData("tilt"));
+  ASSERT_TRUE(type(named(*sweep, "sweep_values"), "-20deg..20deg/10deg"));
+  ASSERT_TRUE(click(button_with(*sweep, "Sweep")));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_EQ(sweep->swept().size(), 5u);
+  EXPECT_GT(best_of(sweep->swept()).covered, sweep->swept().back().covered);
+  keep_picture(window, "simulator-sweep");
+  ASSERT_TRUE(click(button_with(*sweep, "Use the best")));
+  const ScannerSetup placed =
+      *scanner_setup(mode().scene().scanners.at(1), mode().scene().placement);
+  EXPECT_NEAR(placed.placement.tilt_rad, best_of(sweep->swept()).value, 1e-6);
+  ASSERT_TRUE(type(named(*sweep, "sweep_values"), "20"));
+  ASSERT_TRUE(click(button_with(*sweep, "Sweep")));
+  EXPECT_TRUE(crowded(window).empty());
 }
 
 TEST_F(Simulator, AScannerIsPlacedByDragging) {

@@ -5,9 +5,12 @@
 
 #include <QAction>
 #include <QApplication>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QTest>
 #include <QTreeWidget>
 #include <turnscan/io/mesh/mesh_io.hpp>
@@ -17,9 +20,11 @@
 #include "driver.hpp"
 #include "explorer/explorer.hpp"
 #include "explorer/model_list.hpp"
+#include "explorer/output/stage_sheet.hpp"
 #include "explorer/stage_panel.hpp"
 #include "tests/support/shared_data.hpp"
 #include "view/scene_view.hpp"
+#include "widgets/text.hpp"
 #include "window/main_window.hpp"
 
 namespace turnscan::studio {
@@ -74,6 +79,58 @@ TEST_F(Stages, EveryStageOfARecordingAddsAModelAndAllIsTakenBack) {
   EXPECT_EQ(models().size(), 9u);
   while (mode().store().can_undo()) QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   EXPECT_TRUE(models().empty());
+}
+
+TEST_F(Stages, VoxelsAreCubesThatAThresholdKeepsAtOnceAndASheetShowsAllStages) {
+  const QString recording = folder.filePath("doll");
+  ASSERT_EQ(run_command_line({"simulate", "builtin:doll", "-o", recording, "--frames", "24"}), 0);
+  window.open(recording);
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_TRUE(type(named(mode(), "option:voxel-grid"), "60"));
+  ASSERT_TRUE(type(named(mode(), "option:voxel-min-points"), "1"));
+  run("voxels");
+  const int voxels = models().back().id;
+  mode().list().select(voxels);
+  const auto drawn = [&] { return window.mode().view().settled(); };
+  ASSERT_TRUE(wait_for(drawn));
+  run_for(500);
+  auto* least = qobject_cast<QSpinBox*>(named(mode(), "voxel_least"));
+  auto* kept = qobject_cast<QLabel*>(named(mode(), "voxel_kept"));
+  EXPECT_TRUE(qobject_cast<QCheckBox*>(named(mode(), "voxel_cubes"))->isChecked());
+  const QImage all = window.mode().view().screenshot();
+  keep_picture(window, "voxels-all");
+  const std::size_t before = models().size();
+  const std::vector<float>& counts = models().back().data->cloud.weights;
+  least->setValue(6);
+  const auto more =
+      std::count_if(counts.begin(), counts.end(), [](float count) { return count >= 6.0f; });
+  ASSERT_GT(more, 0);
+  EXPECT_TRUE(kept->text().startsWith(grouped(std::size_t(more)) + " of "))
+      << kept->text().toStdString();
+  ASSERT_TRUE(wait_for([&] { return drawn() && window.mode().view().screenshot() != all; }));
+  keep_picture(window, "voxels-kept");
+  EXPECT_EQ(models().size(), before);  // no stage was run
+  ASSERT_TRUE(click(button_with(mode(), "Use for Voxelise")));
+  EXPECT_EQ(qobject_cast<QLineEdit*>(named(mode(), "option:voxel-min-points"))->text(), "6");
+  mode().list().select(models().front().id);
+  run("sub-voxels");
+  mode().list().select(models().back().id);
+  run_for(500);
+  ASSERT_TRUE(wait_for(drawn));
+  keep_picture(window, "sub-voxels");
+  mode().list().select(models().front().id);
+  run("candidates");
+  mode().list().select(models().front().id);
+  ASSERT_TRUE(click(button_with(mode(), "Reconstruct")));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_TRUE(click(button_with(mode(), "Stages…")));
+  SheetDialog* sheet = nullptr;
+  ASSERT_TRUE(wait_for([&] { return (sheet = mode().findChild<SheetDialog*>()) != nullptr; }));
+  keep_picture(*sheet, "sheet");
+  sheet->save_as(folder.filePath("stages.png"));
+  const QImage saved(folder.filePath("stages.png"));
+  EXPECT_EQ(saved.width(), 4 * 420);  // the recording is none of them
+  sheet->close();
 }
 
 TEST_F(Stages, ARealScanGoesThroughTheStagesAndIsSavedAndReadAgain) {

@@ -8,11 +8,14 @@
 
 #include <QApplication>
 #include <QCheckBox>
+#include <QSpinBox>
 #include <QTest>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <numbers>
 #include <turnscan/core/mesh_texture.hpp>
+#include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/recording/recording.hpp>
 
@@ -148,6 +151,55 @@ TEST_F(Stalls, ALargeTextureIsOpenedAndEdited) {
   QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
   ASSERT_TRUE(wait_idle(window));
   note("undoing");
+}
+
+TEST_F(Stalls, VoxelsOf150CubedTurnAsCubes) {
+  // A ball's surface, with as many voxels as a figure's.
+  constexpr int kHalf = 75;
+  PointCloud cloud;
+  for (int x = -kHalf; x < kHalf; ++x)
+    for (int y = -kHalf; y < kHalf; ++y)
+      for (int z = -kHalf; z < kHalf; ++z) {
+        const Vec3f p(float(x) + 0.5f, float(y) + 0.5f, float(z) + 0.5f);
+        if (std::abs(p.norm() - 74.0f) > 0.65f) continue;
+        cloud.points.push_back(0.002f * p);
+        cloud.weights.push_back(float(100 + x));
+      }
+  const QString file = folder.filePath("voxels.ply");
+  ASSERT_TRUE(write_cloud(file.toStdString(), cloud));
+  window.resize(1280, 800);
+  window.show_mode("explorer");
+  window.open(file);
+  ASSERT_TRUE(wait_idle(window));
+  watch.reset();
+  SceneView& view = window.mode().view();
+  const QImage points = view.screenshot();
+  qobject_cast<QCheckBox*>(named(window.explorer(), "voxel_cubes"))->setChecked(true);
+  ASSERT_TRUE(wait_for([&] { return view.screenshot() != points; }));
+  ASSERT_TRUE(wait_for([&] { return view.settled(); }));
+  note("Cubes made");
+  keep_picture(window, "voxels-150");
+  constexpr int kFrames = 60;
+  const CameraPlace first = view.camera();
+  QElapsedTimer clock;
+  clock.start();
+  const std::clock_t busy = std::clock();
+  for (int i = 0; i < kFrames; ++i) {
+    CameraPlace place = first;
+    place.position =
+        first.focus + Eigen::AngleAxisd(0.1 * i, Vec3d::UnitY()) * (first.position - first.focus);
+    view.set_camera(place);
+    QApplication::processEvents();
+  }
+  std::printf("%zu voxels as cubes: %.1f frames a second, %.0f ms of processor time each\n",
+              cloud.size(), 1e3 * kFrames / double(clock.elapsed()),
+              1e3 * double(std::clock() - busy) / CLOCKS_PER_SEC / kFrames);
+  auto* least = qobject_cast<QSpinBox*>(named(window.explorer(), "voxel_least"));
+  clock.restart();
+  const QImage before = view.screenshot();
+  least->setValue(100);
+  ASSERT_TRUE(wait_for([&] { return view.screenshot() != before; }));
+  std::printf("after another threshold: shown in %lld ms\n", clock.elapsed());
 }
 
 }  // namespace

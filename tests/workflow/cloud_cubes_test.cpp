@@ -50,6 +50,18 @@ TEST(CloudCubes, LeaveOutWhatFewPointsAreInAndKeepTheColoursOfTheRest) {
   EXPECT_EQ(none.error().code, ErrorCode::kTooFewPoints);
 }
 
+TEST(CloudCubes, AreEightTimesAsLargeForAViewThatMoves) {
+  const PointCloud cloud = four_cells();
+  const CloudCubes cubes(cloud);
+  EXPECT_TRUE(cubes.on_grid());
+  const TriangleMesh mesh = cubes.coarser(0.0);
+  EXPECT_EQ(mesh.triangles.size(), 2u * (2 * 6 - 2));  // of three cells, and of the other
+  const Box box = bounds(mesh.vertices);
+  EXPECT_LT((box.max - Vec3d(0.008, 0.004, 0.004)).norm(), 1e-7);
+  EXPECT_EQ(mesh.colors.back(), cubes.mesh(9.0)->colors.back());
+  EXPECT_EQ(cubes.coarser(9.0).triangles.size(), 12u);
+}
+
 TEST(CloudCubes, OfPointsOnNoGridAreSmallAndWhole) {
   PointCloud cloud = four_cells();
   cloud.weights.clear();

@@ -16,6 +16,7 @@
 #include "explorer/inspection/tool_buttons.hpp"
 #include "explorer/loading.hpp"
 #include "explorer/looking/look_panel.hpp"
+#include "explorer/looking/voxel_panel.hpp"
 #include "explorer/model_list.hpp"
 #include "explorer/passes/join_panel.hpp"
 #include "explorer/session.hpp"
@@ -56,6 +57,8 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       side_(new SidePanel(this)),
       verdict_(new VerdictPanel(this)),
       look_(new LookPanel(view(), *store_, this)),
+      voxels_(new VoxelPanel(*store_, this)),
+      voxels_section_(section_with(voxels_, tr("Voxels"), true, this)),
       session_(new SessionKeeper(*store_, SessionKeeper::default_root(), this)),
       ask_unit_([this](const DoubtfulUnit& doubt) { return ask_unit(doubt, this); }) {
   const ExplorerParts parts{*store_, *list_, view(), jobs(), *tools_};
@@ -97,7 +100,7 @@ void ExplorerMode::add_sections() {
   join_section_ = new Section(tr("Join by points"), false, this, Section::kNested);
   join_section_->body()->addWidget(join_);
   side->body()->addWidget(join_section_);
-  for (Section* each : {section_with(list_, tr("Models"), true, this),
+  for (Section* each : {section_with(list_, tr("Models"), true, this), voxels_section_,
                         section_with(verdict_, tr("Verdict"), true, this), side, inspection,
                         section_with(edits_, tr("Editing"), false, this),
                         section_with(new HistoryPanel(*store_, this), tr("History"), false, this),
@@ -138,6 +141,11 @@ void ExplorerMode::connect_panels() {
   connect(verdict_, &VerdictPanel::color_way_changed, this, &ExplorerMode::color_selected);
   connect(verdict_, &VerdictPanel::report_wanted, this, &ExplorerMode::report_dialog);
   connect(look_, &LookPanel::isolation_changed, this, &ExplorerMode::sync);
+  connect(look_, &LookPanel::stages_wanted, this, &ExplorerMode::show_stages);
+  connect(voxels_, &VoxelPanel::changed, this, &ExplorerMode::sync);
+  connect(voxels_, &VoxelPanel::threshold_wanted, this, [this](int least) {
+    stages_->set_option("voxels", "voxel-min-points", QString::number(least));
+  });
   connect(look_, &LookPanel::movie_wanted, this, &ExplorerMode::movie_dialog);
   connect(side_, &SidePanel::scan_wanted, this, [this] {
     const Model* model = store_->find(list_->selected());
@@ -224,10 +232,11 @@ std::pair<const Model*, const Model*> ExplorerMode::side_by_side() const {
   return {store_->find(compare_->reference()), store_->find(compare_->compared())};
 }
 
-/// In its own colours, or coloured by its deviations.
+/// In its own colours, coloured by its deviations, or as cubes.
 DrawablePtr ExplorerMode::drawable_of(const Model& model) const {
-  const DrawablePtr colored = deviations_->drawable_of(model);
-  return colored ? colored : model.data->drawable;
+  for (const DrawablePtr& other : {deviations_->drawable_of(model), voxels_->drawable_of(model)})
+    if (other) return other;
+  return model.data->drawable;
 }
 
 /// The coloured version of the selected mesh replaces it in place.
@@ -251,9 +260,10 @@ void ExplorerMode::draw_colored() {
   }
   const Model* compared = store_->find(legend_model_);
   const bool of_comparison = compared && style_of(*compared).visible;
-  const auto deviations = deviations_->legend();
+  const auto deviations = deviations_->legend(), cells = voxels_->legend();
   view().set_legend(wanted && style_of(*model).visible ? colored_.legend
                     : deviations                       ? *deviations
+                    : cells                            ? *cells
                     : of_comparison                    ? legend_
                     : missing_.item != 0               ? missing_legend()
                                                        : Legend());
@@ -318,6 +328,8 @@ void ExplorerMode::on_selection(int id) {
   side_->show_missing(model ? model->data->missing : nullptr);
   verdict_->show_quality(model ? model->data->quality : nullptr);
   look_->show_model(id);
+  voxels_->show_model(id);
+  voxels_section_->setVisible(voxels_->applies());
   if (look_->isolated()) sync();
   draw_missing();
   if (model && model->data->quality && colored_.of != model->data) {

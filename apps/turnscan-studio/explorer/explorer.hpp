@@ -27,6 +27,7 @@ struct LostSession;
 class StagePanel;
 class ToolButtons;
 class VerdictPanel;
+class VoxelPanel;
 
 class ExplorerMode : public Mode {
   Q_OBJECT
@@ -53,6 +54,8 @@ class ExplorerMode : public Mode {
                           const std::function<void(bool good, const QString& text)>& done);
   /// The title of that job.
   static QString queue_title(const QString& recording);
+  /// Shows a contact sheet of the visible models; see SheetDialog.
+  void show_stages();
   /// Rotates the view once; see TurntableMovie.
   void make_movie(const QString& path, int frames);
   /// Sets the callback that asks for the unit of a file whose size is implausible.
@@ -119,6 +122,8 @@ class ExplorerMode : public Mode {
   Section* join_section_;
   VerdictPanel* verdict_;
   LookPanel* look_;
+  VoxelPanel* voxels_;
+  Section* voxels_section_;
   SessionKeeper* session_;
   struct Shown {
     int item = 0;

@@ -36,11 +36,12 @@ const std::map<std::string, QString>& titles() {
   return names;
 }
 
-/// Stage of a section -> the cloud that it can make, and the text of the button.
-const std::map<std::string, std::pair<std::string, QString>>& outputs() {
-  static const std::map<std::string, std::pair<std::string, QString>> made{
+/// Stage of a section -> the clouds that it can make, and the texts of their buttons.
+const std::multimap<std::string, std::pair<std::string, QString>>& outputs() {
+  static const std::multimap<std::string, std::pair<std::string, QString>> made{
       {"merge", {"merged", QObject::tr("Merge the frames")}},
       {"voxels", {"voxels", QObject::tr("Voxelise")}},
+      {"candidates", {"sub-voxels", QObject::tr("Count contributions")}},
       {"candidates", {"candidates", QObject::tr("Find candidates")}},
       {"refine", {"refined", QObject::tr("Refine candidates")}},
       {"base", {"oriented", QObject::tr("Oriented points")}}};
@@ -124,16 +125,22 @@ void StagePanel::add_run_button(const std::string& stage, Section& section) {
     connect(filter_, &QPushButton::clicked, this, &StagePanel::filter);
     section.body()->addWidget(filter_);
   }
-  const auto made = outputs().find(stage);
-  if (made == outputs().end()) return;
-  auto* start =
-      button(made->second.second,
-             tr("Run the stages up to this one; adds its cloud as a new model"), &section);
-  start->setObjectName("run:" + QString::fromStdString(made->second.first));
-  const QString output = QString::fromStdString(made->second.first);
-  connect(start, &QPushButton::clicked, this, [this, output] { Q_EMIT run(output); });
-  section.body()->addWidget(start);
-  run_buttons_.push_back(start);
+  const auto [first, last] = outputs().equal_range(stage);
+  for (auto made = first; made != last; ++made) {
+    const QString output = QString::fromStdString(made->second.first);
+    auto* start =
+        button(made->second.second,
+               tr("Run the stages up to this one; adds its cloud as a new model"), &section);
+    start->setObjectName("run:" + output);
+    connect(start, &QPushButton::clicked, this, [this, output] { Q_EMIT run(output); });
+    section.body()->addWidget(start);
+    run_buttons_.push_back(start);
+  }
+}
+
+void StagePanel::set_option(const std::string& stage, const QString& name, const QString& value) {
+  for (const auto& [of, form] : forms_)
+    if (of == stage) form->set_values({{name, value}});
 }
 
 QString StagePanel::first_error() const {

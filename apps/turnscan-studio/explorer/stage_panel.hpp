@@ -32,6 +32,7 @@ class StagePanel : public QWidget {
   /// The first error in the options, or empty.
   QString first_error() const;
   /// Shows the values that were used for automatic options.
+  void set_option(const std::string& stage, const QString& name, const QString& value);
   void show_used(const std::vector<ResolvedParameter>& choices);
   void show_error(const QString& text);
   void add_error(const QString& text);

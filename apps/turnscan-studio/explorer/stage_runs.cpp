@@ -174,6 +174,7 @@ Result<StageRun> run_on(const FrameSequence& frames, const Model& model, const s
   if (of_points(stage) && options.surface.method == SurfaceMethod::kVolumetric)
     options.surface.method = SurfaceMethod::kPoisson;
   options.keep_points = stage == "merged";
+  if (stage == "sub-voxels") options.candidates.method = CandidateMethod::kSubVoxel;
   TURNSCAN_ASSIGN(auto made, reconstruct_until(stage, frames, options, context));
   if (auto* cloud = std::get_if<PointCloud>(&made))
     return cloud_run(std::move(*cloud), frames, model, stage, options.merge.speed_rad_s, note,

@@ -308,18 +308,6 @@
         <translation>Inclinación</translation>
     </message>
     <message>
-        <source>Live height</source>
-        <translation>Altura en directo</translation>
-    </message>
-    <message>
-        <source>Live inset</source>
-        <translation>Retranqueo en directo</translation>
-    </message>
-    <message>
-        <source>Live margin</source>
-        <translation>Margen en directo</translation>
-    </message>
-    <message>
         <source>Mark invented</source>
         <translation>Marcar lo inventado</translation>
     </message>
@@ -859,6 +847,294 @@
         <source>Labelled cylinder</source>
         <translation>Cilindro con etiqueta</translation>
     </message>
+    <message>
+        <source>Action figure</source>
+        <translation>Figura de acción</translation>
+    </message>
+    <message>
+        <source>Aspect</source>
+        <translation>Relación de aspecto</translation>
+    </message>
+    <message>
+        <source>Axial constant</source>
+        <translation>Axial, constante</translation>
+    </message>
+    <message>
+        <source>Axial grazing</source>
+        <translation>Axial, rasante</translation>
+    </message>
+    <message>
+        <source>Axial grazing from</source>
+        <translation>Axial, rasante desde</translation>
+    </message>
+    <message>
+        <source>Axial grazing power</source>
+        <translation>Axial, rasante, potencia</translation>
+    </message>
+    <message>
+        <source>Axial linear</source>
+        <translation>Axial, lineal</translation>
+    </message>
+    <message>
+        <source>Axial linear from</source>
+        <translation>Axial, lineal desde</translation>
+    </message>
+    <message>
+        <source>Axial quadratic</source>
+        <translation>Axial, cuadrático</translation>
+    </message>
+    <message>
+        <source>Axial quadratic at</source>
+        <translation>Axial, cuadrático en</translation>
+    </message>
+    <message>
+        <source>Baseline</source>
+        <translation>Línea base</translation>
+    </message>
+    <message>
+        <source>Baseline direction</source>
+        <translation>Dirección de la línea base</translation>
+    </message>
+    <message>
+        <source>Bias</source>
+        <translation>Sesgo</translation>
+    </message>
+    <message>
+        <source>Colour delay</source>
+        <translation>Retraso del color</translation>
+    </message>
+    <message>
+        <source>Colour jitter</source>
+        <translation>Fluctuación del color</translation>
+    </message>
+    <message>
+        <source>Columns</source>
+        <translation>Columnas</translation>
+    </message>
+    <message>
+        <source>Cx</source>
+        <translation>Cx</translation>
+    </message>
+    <message>
+        <source>Cy</source>
+        <translation>Cy</translation>
+    </message>
+    <message>
+        <source>Dark jitter</source>
+        <translation>Fluctuación en lo oscuro</translation>
+    </message>
+    <message>
+        <source>Dark signal</source>
+        <translation>Señal en lo oscuro</translation>
+    </message>
+    <message>
+        <source>Depth unit</source>
+        <translation>Unidad de profundidad</translation>
+    </message>
+    <message>
+        <source>Disparity sigma</source>
+        <translation>Disparidad, sigma</translation>
+    </message>
+    <message>
+        <source>Disparity step</source>
+        <translation>Disparidad, paso</translation>
+    </message>
+    <message>
+        <source>Drop from</source>
+        <translation>Se pierde desde</translation>
+    </message>
+    <message>
+        <source>Drop to</source>
+        <translation>Se pierde hasta</translation>
+    </message>
+    <message>
+        <source>Far</source>
+        <translation>Lejos</translation>
+    </message>
+    <message>
+        <source>Footprint px</source>
+        <translation>Huella, px</translation>
+    </message>
+    <message>
+        <source>Fx</source>
+        <translation>Fx</translation>
+    </message>
+    <message>
+        <source>Fy</source>
+        <translation>Fy</translation>
+    </message>
+    <message>
+        <source>K1</source>
+        <translation>K1</translation>
+    </message>
+    <message>
+        <source>K2</source>
+        <translation>K2</translation>
+    </message>
+    <message>
+        <source>K3</source>
+        <translation>K3</translation>
+    </message>
+    <message>
+        <source>K4</source>
+        <translation>K4</translation>
+    </message>
+    <message>
+        <source>K5</source>
+        <translation>K5</translation>
+    </message>
+    <message>
+        <source>K6</source>
+        <translation>K6</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Tipo</translation>
+    </message>
+    <message>
+        <source>Lateral grazing px</source>
+        <translation>Lateral, rasante, px</translation>
+    </message>
+    <message>
+        <source>Lateral length</source>
+        <translation>Lateral, longitud</translation>
+    </message>
+    <message>
+        <source>Lateral per metre</source>
+        <translation>Lateral por metro</translation>
+    </message>
+    <message>
+        <source>Lateral px</source>
+        <translation>Lateral, px</translation>
+    </message>
+    <message>
+        <source>Line aperture</source>
+        <translation>Línea, apertura</translation>
+    </message>
+    <message>
+        <source>Line blur</source>
+        <translation>Línea, desenfoque</translation>
+    </message>
+    <message>
+        <source>Line contrast</source>
+        <translation>Línea, contraste</translation>
+    </message>
+    <message>
+        <source>Line exposure</source>
+        <translation>Línea, exposición</translation>
+    </message>
+    <message>
+        <source>Line focal</source>
+        <translation>Línea, focal</translation>
+    </message>
+    <message>
+        <source>Line full well</source>
+        <translation>Línea, capacidad del píxel</translation>
+    </message>
+    <message>
+        <source>Line read noise</source>
+        <translation>Línea, ruido de lectura</translation>
+    </message>
+    <message>
+        <source>Line threshold</source>
+        <translation>Línea, umbral</translation>
+    </message>
+    <message>
+        <source>Line wavelength</source>
+        <translation>Línea, longitud de onda</translation>
+    </message>
+    <message>
+        <source>Line width</source>
+        <translation>Línea, anchura</translation>
+    </message>
+    <message>
+        <source>Max incidence</source>
+        <translation>Incidencia máxima</translation>
+    </message>
+    <message>
+        <source>Mixed rejection</source>
+        <translation>Rechazo de píxeles mixtos</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nombre</translation>
+    </message>
+    <message>
+        <source>Near</source>
+        <translation>Cerca</translation>
+    </message>
+    <message>
+        <source>P1</source>
+        <translation>P1</translation>
+    </message>
+    <message>
+        <source>P2</source>
+        <translation>P2</translation>
+    </message>
+    <message>
+        <source>Pan</source>
+        <translation>Giro a la derecha</translation>
+    </message>
+    <message>
+        <source>Physics</source>
+        <translation>Física</translation>
+    </message>
+    <message>
+        <source>Robed figure</source>
+        <translation>Figura con túnica</translation>
+    </message>
+    <message>
+        <source>Rows</source>
+        <translation>Filas</translation>
+    </message>
+    <message>
+        <source>Sensing</source>
+        <translation>Medición</translation>
+    </message>
+    <message>
+        <source>Tilt</source>
+        <translation>Inclinación hacia arriba</translation>
+    </message>
+    <message>
+        <source>Tof amplitude</source>
+        <translation>ToF, amplitud</translation>
+    </message>
+    <message>
+        <source>Tof read noise</source>
+        <translation>ToF, ruido de lectura</translation>
+    </message>
+    <message>
+        <source>Tof relative noise</source>
+        <translation>ToF, ruido relativo</translation>
+    </message>
+    <message>
+        <source>Tof shot noise</source>
+        <translation>ToF, ruido de disparo</translation>
+    </message>
+    <message>
+        <source>Vertical fov</source>
+        <translation>Campo de visión vertical</translation>
+    </message>
+    <message>
+        <source>Voxel grid in bounds</source>
+        <translation>Rejilla en los límites de los puntos</translation>
+    </message>
+    <message>
+        <source>Window agreement</source>
+        <translation>Ventana, concordancia</translation>
+    </message>
+    <message>
+        <source>Window dots</source>
+        <translation>Ventana, puntos</translation>
+    </message>
+    <message>
+        <source>Window px</source>
+        <translation>Ventana, px</translation>
+    </message>
+    <message>
+        <source>Window share</source>
+        <translation>Ventana, proporción</translation>
+    </message>
 </context>
 <context>
     <name>QObject</name>
@@ -1353,6 +1629,10 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
     <message>
         <source>Nearly all of its surface was seen.</source>
         <translation>Se vio casi toda su superficie.</translation>
+    </message>
+    <message>
+        <source>Count contributions</source>
+        <translation>Contar contribuciones</translation>
     </message>
 </context>
 <context>
@@ -1954,6 +2234,14 @@ Another side, Join by points shows how it lay.</source>
         <translation>%1
 Otro lado, Unir por puntos muestra cómo estaba.</translation>
     </message>
+    <message>
+        <source>Voxels</source>
+        <translation>Vóxeles</translation>
+    </message>
+    <message>
+        <source>Stages</source>
+        <translation>Etapas</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::ExportDialog</name>
@@ -2268,6 +2556,14 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     <message>
         <source>Show the other side of the clipping plane</source>
         <translation>Mostrar el otro lado del plano de sección</translation>
+    </message>
+    <message>
+        <source>Stages…</source>
+        <translation>Etapas…</translation>
+    </message>
+    <message>
+        <source>What is checked in the list, side by side in one picture</source>
+        <translation>Lo que está marcado en la lista, lado a lado en una imagen</translation>
     </message>
 </context>
 <context>
@@ -3033,6 +3329,49 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     </message>
 </context>
 <context>
+    <name>turnscan::studio::ScannerEditor</name>
+    <message>
+        <source>What it is</source>
+        <translation>Qué es</translation>
+    </message>
+    <message>
+        <source>Where it stands</source>
+        <translation>Dónde está</translation>
+    </message>
+    <message>
+        <source>Its noise</source>
+        <translation>Su ruido</translation>
+    </message>
+    <message>
+        <source>Preset to fill the fields from</source>
+        <translation>Modelo predefinido con el que rellenar los campos</translation>
+    </message>
+    <message>
+        <source>Fill from…</source>
+        <translation>Rellenar con…</translation>
+    </message>
+    <message>
+        <source>Save as scanner…</source>
+        <translation>Guardar como escáner…</translation>
+    </message>
+    <message>
+        <source>These fields as a file for --scanner and for Add scanner</source>
+        <translation>Estos campos como archivo para --scanner y para Añadir escáner</translation>
+    </message>
+    <message>
+        <source>%1, changed</source>
+        <translation>%1, modificado</translation>
+    </message>
+    <message>
+        <source>Save as scanner</source>
+        <translation>Guardar como escáner</translation>
+    </message>
+    <message>
+        <source>Scanners (*.toml)</source>
+        <translation>Escáneres (*.toml)</translation>
+    </message>
+</context>
+<context>
     <name>turnscan::studio::ScannerMode</name>
     <message>
         <source>No picture yet</source>
@@ -3332,6 +3671,25 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
     </message>
 </context>
 <context>
+    <name>turnscan::studio::SheetDialog</name>
+    <message>
+        <source>Stages</source>
+        <translation>Etapas</translation>
+    </message>
+    <message>
+        <source>Save the stages</source>
+        <translation>Guardar las etapas</translation>
+    </message>
+    <message>
+        <source>PNG (*.png)</source>
+        <translation>PNG (*.png)</translation>
+    </message>
+    <message>
+        <source>%1 cannot be written; check the folder and its permissions</source>
+        <translation>%1 no se puede escribir; compruebe la carpeta y sus permisos</translation>
+    </message>
+</context>
+<context>
     <name>turnscan::studio::SidePanel</name>
     <message>
         <source>Show what no view saw</source>
@@ -3556,6 +3914,14 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
         <source>The largest holes</source>
         <translation>Los huecos mayores</translation>
     </message>
+    <message>
+        <source>Sweep</source>
+        <translation>Barrido</translation>
+    </message>
+    <message>
+        <source>Coverage of the selected scanner as it is turned:</source>
+        <translation>Cobertura del escáner seleccionado al girarlo:</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::StagePanel</name>
@@ -3614,6 +3980,41 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
     <message>
         <source>Run the stages up to this one; adds its cloud as a new model</source>
         <translation>Ejecutar las etapas hasta esta; añade su nube como modelo nuevo</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::SweepPanel</name>
+    <message>
+        <source>Sweep</source>
+        <translation>Barrido</translation>
+    </message>
+    <message>
+        <source>Find the coverage with each of the values</source>
+        <translation>Calcular la cobertura con cada uno de los valores</translation>
+    </message>
+    <message>
+        <source>Use the best</source>
+        <translation>Usar el mejor</translation>
+    </message>
+    <message>
+        <source>Place the scanner where it covers most</source>
+        <translation>Colocar el escáner donde más cubre</translation>
+    </message>
+    <message>
+        <source>Option to sweep</source>
+        <translation>Opción que se barre</translation>
+    </message>
+    <message>
+        <source>Values: from..to/step</source>
+        <translation>Valores: desde..hasta/paso</translation>
+    </message>
+    <message>
+        <source>From, to and step, as for --sweep: -45deg..45deg/15deg</source>
+        <translation>Desde, hasta y paso, como en --sweep: -45deg..45deg/15deg</translation>
+    </message>
+    <message>
+        <source>%1 at %2 covers most: %3 % of the surface</source>
+        <translation>%1 en %2 cubre más: %3 % de la superficie</translation>
     </message>
 </context>
 <context>
@@ -3691,6 +4092,45 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
     <message>
         <source>Point size</source>
         <translation>Puntos</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::VoxelPanel</name>
+    <message>
+        <source>As cubes</source>
+        <translation>Como cubos</translation>
+    </message>
+    <message>
+        <source>Use for Voxelise</source>
+        <translation>Usar al voxelizar</translation>
+    </message>
+    <message>
+        <source>Make this the option voxel-min-points of the next runs</source>
+        <translation>Usarlo como opción voxel-min-points de las próximas ejecuciones</translation>
+    </message>
+    <message>
+        <source>Least count of a cell that is shown</source>
+        <translation>Número mínimo de puntos de una celda mostrada</translation>
+    </message>
+    <message>
+        <source>At least</source>
+        <translation>Al menos</translation>
+    </message>
+    <message>
+        <source>%1 of %2 cells have at least %3 points</source>
+        <translation>%1 de %2 celdas tienen al menos %3 puntos</translation>
+    </message>
+    <message>
+        <source>Cubes</source>
+        <translation>Cubos</translation>
+    </message>
+    <message>
+        <source>Points in a cell</source>
+        <translation>Puntos por celda</translation>
+    </message>
+    <message>
+        <source> and more</source>
+        <translation> y más</translation>
     </message>
 </context>
 </TS>

@@ -31,16 +31,21 @@ SimulatorMode::SimulatorMode(const Services& services, QWidget* parent)
       tool_(std::make_unique<RigTool>(*this)),
       quick_(new JobRunner(this)),
       preview_(new QTimer(this)),
-      poll_(new QTimer(this)) {
+      poll_(new QTimer(this)),
+      pause_(new QTimer(this)) {
   preview_->setSingleShot(true);
   preview_->setInterval(150);
   connect(preview_, &QTimer::timeout, this, &SimulatorMode::load_preview);
+  pause_->setSingleShot(true);
+  pause_->setInterval(preview_->interval());
+  connect(pause_, &QTimer::timeout, this, &SimulatorMode::place_changed);
   poll_->setInterval(120);
   connect(poll_, &QTimer::timeout, this, &SimulatorMode::show_samples);
   build_object();
   build_scanners();
   build_run();
   build_coverage();
+  build_sweep();
   build_options();
   panel()->addStretch();
   view().set_tool(tool_.get());
@@ -214,7 +219,8 @@ void SimulatorMode::run() {
   for (const auto& [name, form] : forms_)
     if (!form->valid()) return error_->show_text(form->first_error());
   for (const auto& scanner : scanners_)
-    if (!scanner->form->valid()) return error_->show_text(scanner->form->first_error());
+    if (const QString text = scanner->editor->error(); !text.isEmpty())
+      return error_->show_text(text);
   if (scanners_.empty()) return error_->show_text(tr("There is no scanner; add one first"));
   clear_samples();
   coverage_box_->setVisible(false);

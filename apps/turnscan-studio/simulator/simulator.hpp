@@ -22,8 +22,6 @@ namespace turnscan {
 struct CoverageMapOptions;
 struct SceneDescription;
 struct ScannerEntry;
-struct ScannerModel;
-struct ScannerPlacement;
 struct PlacedObject;
 }  // namespace turnscan
 
@@ -48,7 +46,10 @@ class SimulatorMode : public Mode {
 
   bool open_file(const QString& path) override;
   void shut_down() override { store(); }
-  void undo() override { go_to_step(step_ - 1); }
+  void undo() override {
+    place_changed();
+    go_to_step(step_ - 1);
+  }
   void redo() override { go_to_step(step_ + 1); }
   QString undo_text() const override;
   QString redo_text() const override;
@@ -76,6 +77,7 @@ class SimulatorMode : public Mode {
   void build_options();
   void build_run();
   void build_coverage();
+  void build_sweep();
   void load_preview();
   void draw_rig();
   void draw_scanner(RigScanner& scanner);
@@ -83,6 +85,7 @@ class SimulatorMode : public Mode {
   void drag_scanner(RigScanner& scanner);
   bool add_entry(const ScannerEntry& entry);
   void take_scanner(int row);
+  void show_titles();
   ItemStyle lines_style(const RigScanner& scanner) const;
   void show_object(const QString& object);
   void apply_scene(SceneDescription scene);
@@ -109,6 +112,7 @@ class SimulatorMode : public Mode {
   JobRunner* quick_;  ///< for previews, in parallel with the long jobs
   QTimer* preview_;
   QTimer* poll_;
+  QTimer* pause_;  ///< after which a change by a slider or by typing is one step of undo
   QComboBox* object_;
   QListWidget* list_;
   QStackedWidget* places_;

@@ -3,18 +3,15 @@
 
 #include <memory>
 #include <turnscan/sensors/scanner_file.hpp>
-#include <turnscan/simulator/scene_file.hpp>
 
+#include "simulator/scanner_editor.hpp"
 #include "simulator/simulator.hpp"
 #include "view/scene_view.hpp"
 
 namespace turnscan::studio {
 
 struct SimulatorMode::RigScanner {
-  QString name;
-  ScannerModel model;
-  ScannerPlacement placement;
-  OptionForm* form = nullptr;
+  ScannerEditor* editor = nullptr;
   int lines = 0, bodies = 0;  // items in the view
 };
 

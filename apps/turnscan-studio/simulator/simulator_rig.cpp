@@ -1,7 +1,6 @@
 // The scanners in the Simulator: placed by dragging and by numbers, and drawn.
 
 #include <QFileDialog>
-#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QListWidget>
@@ -15,10 +14,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/paths.hpp"
 #include "simulator/rig_drawing.hpp"
 #include "simulator/simulator_parts.hpp"
+#include "simulator/sweep_panel.hpp"
 #include "view/scene_view.hpp"
-#include "widgets/option_form.hpp"
 #include "widgets/section.hpp"
 #include "widgets/theme.hpp"
 
@@ -72,7 +72,8 @@ void RigTool::drag(const QPointF& at, Qt::KeyboardModifiers keys) {
   auto& scanner = *mode_.scanners_[std::size_t(dragged_)];
   if (keys.testFlag(Qt::ShiftModifier)) {
     const double factor = std::exp(0.005 * (at.y() - last_.y()));
-    scanner.placement.distance_m = std::clamp(scanner.placement.distance_m * factor, 0.05, 50.0);
+    double& away = scanner.editor->placement().distance_m;
+    away = std::clamp(away * factor, 0.05, 50.0);
   } else {
     turn(scanner, at);
   }
@@ -86,12 +87,13 @@ void RigTool::release(const QPointF& /*at*/) {
 }
 
 Vec3d RigTool::position_of(const SimulatorMode::RigScanner& scanner) const {
-  return scanner_pose(scanner.placement, mode_.aim_height(), 0.5, Vec3d::UnitY()).translation();
+  return scanner_pose(scanner.editor->placement(), mode_.aim_height(), 0.5, Vec3d::UnitY())
+      .translation();
 }
 
 /// Intersects the line of sight with the sphere around the aim on which the scanner is placed.
 void RigTool::turn(SimulatorMode::RigScanner& scanner, const QPointF& at) const {
-  ScannerPlacement& p = scanner.placement;
+  ScannerPlacement& p = scanner.editor->placement();
   const Vec3d aim(p.aim_x_m, p.aim_height_m.value_or(mode_.aim_height()), p.aim_z_m);
   const auto [origin, direction] = mode_.view().sight(at);
   const double along = (aim - origin).dot(direction);
@@ -150,43 +152,44 @@ void SimulatorMode::add_scanner(const QString& model) {
   if (!add_entry({model.toStdString(), {}})) return;
   RigScanner& scanner = *scanners_.back();
   // Next to the existing ones.
-  scanner.placement.azimuth_rad = double(scanners_.size() - 1) * 0.5 * std::numbers::pi;
-  if (scanner.placement.azimuth_rad > 6.0) scanner.placement.azimuth_rad = 0.8;
-  const ScannerModel& m = scanner.model;
-  if (scanner.placement.distance_m > 0.95 * m.far_m ||
-      scanner.placement.distance_m < 1.05 * m.near_m)
-    scanner.placement.distance_m = 0.5 * (m.near_m + m.far_m);
-  scanner.form->refresh();
+  ScannerPlacement& place = scanner.editor->placement();
+  place.azimuth_rad = double(scanners_.size() - 1) * 0.5 * std::numbers::pi;
+  if (place.azimuth_rad > 6.0) place.azimuth_rad = 0.8;
+  const ScannerModel& m = scanner.editor->model();
+  if (place.distance_m > 0.95 * m.far_m || place.distance_m < 1.05 * m.near_m)
+    place.distance_m = 0.5 * (m.near_m + m.far_m);
+  scanner.editor->refresh();
   draw_scanner(scanner);
   list_->setCurrentRow(list_->count() - 1);
   place_changed();
   // It may be outside the view; otherwise the camera stays where the user has put it.
-  const Vec3d at = scanner_pose(scanner.placement, aim_height(), 0.5, Vec3d::UnitY()).translation();
+  const Vec3d at = scanner_pose(place, aim_height(), 0.5, Vec3d::UnitY()).translation();
   const auto pixel = view().project(at);
   if (!pixel || !QRectF(view().rect()).contains(*pixel)) view().reset_camera();
 }
 
 bool SimulatorMode::add_entry(const ScannerEntry& entry) {
-  auto found = find_scanner(entry.model);
-  if (!found) {
-    error_->show_text(QString::fromStdString(found.error().text()));
+  auto base = find_scanner_parameters(entry.model);
+  auto setup = scanner_setup(entry, scene_->placement);
+  if (!setup) {
+    error_->show_text(QString::fromStdString(setup.error().text()));
     return false;
   }
   auto scanner = std::make_unique<RigScanner>();
-  scanner->name = QString::fromStdString(entry.model);
-  scanner->model = std::move(*found);
-  scanner->placement = scene_->placement;
-  const OptionTable table = describe(scanner->placement);
-  for (const auto& [name, value] : entry.placement) (void)table.set(name, value);
-  scanner->form = new OptionForm(describe(scanner->placement), {}, places_);
-  places_->addWidget(scanner->form);
   RigScanner* raw = scanner.get();
-  connect(scanner->form, &OptionForm::changed, this, [this, raw] {
-    draw_scanner(*raw);
-    place_changed();
-  });
+  raw->editor = new ScannerEditor(entry, std::move(*base), std::move(*setup), places_);
+  places_->addWidget(raw->editor);
   scanners_.push_back(std::move(scanner));
-  list_->addItem(QFileInfo(raw->name).completeBaseName());
+  list_->addItem(raw->editor->title());
+  connect(raw->editor, &ScannerEditor::changed, this, [this, raw] {
+    error_->show_text(raw->editor->error());
+    show_titles();
+    draw_scanner(*raw);
+    pause_->start();
+  });
+  connect(raw->editor, &ScannerEditor::failed, error_, &MessageLabel::show_text);
+  connect(raw->editor, &ScannerEditor::saved, this,
+          [this](const QString& file) { Q_EMIT status(tr("Wrote %1").arg(shown_path(file))); });
   draw_scanner(*raw);
   return true;
 }
@@ -202,19 +205,16 @@ void SimulatorMode::take_scanner(int row) {
   RigScanner& scanner = *scanners_[std::size_t(row)];
   view().remove(scanner.lines);
   view().remove(scanner.bodies);
-  places_->removeWidget(scanner.form);
-  scanner.form->disconnect(this);
-  scanner.form->deleteLater();
-  // The form's options refer to the scanner.
-  const std::shared_ptr<RigScanner> gone(std::move(scanners_[std::size_t(row)]));
-  connect(scanner.form, &QObject::destroyed, this, [gone] {});
+  places_->removeWidget(scanner.editor);
+  scanner.editor->disconnect(this);
+  scanner.editor->deleteLater();
   scanners_.erase(scanners_.begin() + row);
   delete list_->takeItem(row);
 }
 
 void SimulatorMode::select_scanner(int row) {
   if (row >= 0 && row < int(scanners_.size()))
-    places_->setCurrentWidget(scanners_[std::size_t(row)]->form);
+    places_->setCurrentWidget(scanners_[std::size_t(row)]->editor);
   for (const auto& scanner : scanners_) view().set_style(scanner->lines, lines_style(*scanner));
 }
 
@@ -243,15 +243,16 @@ void SimulatorMode::draw_rig() {
 void SimulatorMode::draw_scanner(RigScanner& scanner) {
   if (object_item_ == 0) return;  // scanners aim at its height
   const Vec3d axis = table_pose(scene_->table).linear().col(1);
-  const Pose pose = scanner_pose(scanner.placement, aim_height(), 0.5, axis);
-  const double size = std::clamp(0.06 * scanner.placement.distance_m, 0.01, 0.08);
-  Segments lines = frustum_segments(scanner.model, pose,
-                                    scanner.placement.distance_m + 1.2 * scene_->platter.radius_m);
-  const Segments housing = housing_segments(scanner.model, pose, size);
+  const ScannerPlacement& place = scanner.editor->placement();
+  const ScannerModel& model = scanner.editor->model();
+  const Pose pose = scanner_pose(place, aim_height(), 0.5, axis);
+  const double size = std::clamp(0.06 * place.distance_m, 0.01, 0.08);
+  Segments lines = frustum_segments(model, pose, place.distance_m + 1.2 * scene_->platter.radius_m);
+  const Segments housing = housing_segments(model, pose, size);
   lines.points.insert(lines.points.end(), housing.points.begin(), housing.points.end());
   const DrawablePtr bodies =
-      make_drawable(joined(ball(pose * scanner.model.emitter_m, 0.2 * size, kEmitterColor),
-                           ball(pose * scanner.model.receiver_m, 0.2 * size, kReceiverColor)));
+      make_drawable(joined(ball(pose * model.emitter_m, 0.2 * size, kEmitterColor),
+                           ball(pose * model.receiver_m, 0.2 * size, kReceiverColor)));
   ItemStyle style;
   style.boxed = false;
   style.in_view = true;
@@ -262,6 +263,41 @@ void SimulatorMode::draw_scanner(RigScanner& scanner) {
     view().replace(scanner.bodies, bodies);
     view().replace(scanner.lines, make_drawable(lines));
   }
+}
+
+void SimulatorMode::show_titles() {
+  for (std::size_t i = 0; i < scanners_.size(); ++i)
+    list_->item(int(i))->setText(scanners_[i]->editor->title());
+}
+
+/// The selected scanner is swept: the others keep their places.
+void SimulatorMode::build_sweep() {
+  auto* section = new Section(tr("Sweep"), false, this);
+  const auto swept_scene = [this]() -> Result<SceneDescription> {
+    const int row = list_->currentRow();
+    if (row < 0)
+      return fail(ErrorCode::kInvalidOption, "there is no scanner; add one and select it");
+    SceneDescription scene = this->scene();
+    scene.placement = scanners_[std::size_t(row)]->editor->placement();
+    scene.scanners.clear();
+    for (const auto& scanner : scanners_)
+      scene.scanners.push_back(scanner->editor->entry(scene.placement));
+    return scene;
+  };
+  auto* sweep = new SweepPanel(jobs(), swept_scene, *coverage_, section);
+  section->body()->addWidget(
+      quiet_label(tr("Coverage of the selected scanner as it is turned:"), section));
+  section->body()->addWidget(sweep);
+  panel()->addWidget(section);
+  connect(sweep, &SweepPanel::best_wanted, this,
+          [this](const std::string& option, const std::string& value) {
+            const int row = list_->currentRow();
+            if (row < 0) return;
+            RigScanner& scanner = *scanners_[std::size_t(row)];
+            (void)describe(scanner.editor->placement()).set(option, value);
+            drag_scanner(scanner);
+            place_changed();
+          });
 }
 
 /// The selected scanner's frustum is emphasised, so that several remain legible.
@@ -277,7 +313,7 @@ ItemStyle SimulatorMode::lines_style(const RigScanner& scanner) const {
 }
 
 void SimulatorMode::drag_scanner(RigScanner& scanner) {
-  scanner.form->refresh();
+  scanner.editor->refresh();
   draw_scanner(scanner);
 }
 

@@ -23,18 +23,8 @@ constexpr std::size_t kSceneUndoSteps = 200;
 
 const SceneDescription& SimulatorMode::scene() {
   scene_->scanners.clear();
-  for (const auto& scanner : scanners_) {
-    ScannerEntry entry;
-    entry.model = scanner->name.toStdString();
-    ScannerPlacement common = scene_->placement, own = scanner->placement;
-    const OptionTable before = describe(common), now = describe(own);
-    for (std::size_t i = 0; i < now.fields().size(); ++i) {
-      const std::string value = now.fields()[i].get();
-      if (value != before.fields()[i].get())
-        entry.placement.emplace_back(now.fields()[i].name, value);
-    }
-    scene_->scanners.push_back(std::move(entry));
-  }
+  for (const auto& scanner : scanners_)
+    scene_->scanners.push_back(scanner->editor->entry(scene_->placement));
   return *scene_;
 }
 

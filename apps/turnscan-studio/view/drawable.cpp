@@ -206,6 +206,16 @@ DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading, Texels texe
   return out;
 }
 
+DrawablePtr make_drawable(const TriangleMesh& mesh, const TriangleMesh& moving) {
+  auto out = std::make_shared<Drawable>();
+  out->box = bounds(mesh.vertices);
+  out->points = mesh.vertices.size();
+  out->colored = !mesh.colors.empty();
+  out->chunks.push_back(make_surface(mesh));
+  out->coarse = moving.empty() ? nullptr : make_surface(moving);
+  return out;
+}
+
 DrawablePtr make_drawable(const PointCloud& cloud, double spacing_m) {
   auto out = std::make_shared<Drawable>();
   out->kind = DrawableKind::kCloud;

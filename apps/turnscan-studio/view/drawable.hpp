@@ -37,6 +37,8 @@ enum class Texels {
 /// (has_texture()) is drawn, unless the shading is flat; the image is shared, not copied.
 DrawablePtr make_drawable(const TriangleMesh& mesh, Shading shading = Shading::kSmooth,
                           Texels texels = Texels::kBlended);
+/// moving: what is drawn instead while it moves; empty: nothing else.
+DrawablePtr make_drawable(const TriangleMesh& mesh, const TriangleMesh& moving);
 /// spacing_m: distance between its points, which are drawn so large that they touch. 0: not known,
 /// all are drawn in the view's point size.
 DrawablePtr make_drawable(const PointCloud& cloud, double spacing_m = 0.0);

@@ -7,7 +7,10 @@
 #include <QLineEdit>
 #include <QSettings>
 #include <QSignalBlocker>
+#include <QSlider>
 #include <QStyle>
+#include <cmath>
+#include <turnscan/core/angles.hpp>
 
 #include "widgets/no_wheel.hpp"
 #include "widgets/text.hpp"
@@ -51,9 +54,42 @@ QString tip_of(const OptionField& field) {
   return tip;
 }
 
+/// A slider has a step for each degree of an angle. Of other ranges, which span decades, small
+/// values get the larger part.
+constexpr int kSliderSteps = 1000;
+constexpr double kSliderPower = 4.0;
+
+int slider_steps(const OptionField& field) {
+  if (field.quantity != Quantity::kAngle) return kSliderSteps;
+  return int(std::lround((field.range->max - field.range->min) / kRadiansPerDegree));
+}
+
+int step_of(const OptionField& field, double value) {
+  const double share = (value - field.range->min) / (field.range->max - field.range->min);
+  const bool even = field.quantity == Quantity::kAngle;
+  return int(
+      std::lround(slider_steps(field) * (even ? share : std::pow(share, 1.0 / kSliderPower))));
+}
+
+/// Rounded to a degree, or to two digits.
+double value_at(const OptionField& field, int step) {
+  const double share = double(step) / slider_steps(field);
+  const double size = field.range->max - field.range->min;
+  double value = 0.0;
+  if (field.quantity == Quantity::kAngle) {
+    value = std::round((field.range->min + size * share) / kRadiansPerDegree) * kRadiansPerDegree;
+  } else {
+    value = field.range->min + size * std::pow(share, kSliderPower);
+    const double digit = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-12))) - 1.0);
+    value = std::round(value / digit) * digit;
+  }
+  return std::clamp(value, field.range->min, field.range->max);
+}
+
 }  // namespace
 
-OptionForm::OptionForm(OptionTable table, const QStringList& hide, QWidget* parent)
+OptionForm::OptionForm(OptionTable table, const QStringList& hide, QWidget* parent,
+                       const QStringList& sliders)
     : QWidget(parent), table_(std::move(table)), grid_(new QGridLayout(this)) {
   grid_->setContentsMargins(0, 0, 0, 0);
   grid_->setHorizontalSpacing(10);
@@ -61,12 +97,13 @@ OptionForm::OptionForm(OptionTable table, const QStringList& hide, QWidget* pare
   grid_->setColumnStretch(0, 3);
   grid_->setColumnStretch(1, 2);
   for (const OptionField& field : table_.fields())
-    if (!hide.contains(QString::fromStdString(field.name))) add_row(field);
+    if (!hide.contains(QString::fromStdString(field.name)))
+      add_row(field, sliders.contains(QString::fromStdString(field.name)));
 }
 
-void OptionForm::add_row(const OptionField& field) {
+void OptionForm::add_row(const OptionField& field, bool with_slider) {
   const std::size_t index = rows_.size();
-  rows_.push_back({&field, nullptr, nullptr, field.get(), {}});
+  rows_.push_back({&field, nullptr, nullptr, nullptr, field.get(), {}});
   Row& row = rows_.back();
   row.editor = make_editor(index);
   row.editor->setObjectName("option:" + QString::fromStdString(field.name));
@@ -87,7 +124,8 @@ void OptionForm::add_row(const OptionField& field) {
   row.error->setObjectName("field_error");
   row.error->setWordWrap(true);
   row.error->setVisible(false);
-  grid_->addWidget(row.error, line + 1, 0, 1, 2);
+  if (with_slider) grid_->addWidget(row.slider = make_slider(index), line + 1, 0, 1, 2);
+  grid_->addWidget(row.error, line + 2, 0, 1, 2);
   show_value(row);
 }
 
@@ -125,6 +163,33 @@ QWidget* OptionForm::make_editor(std::size_t index) {
   return edit;
 }
 
+QSlider* OptionForm::make_slider(std::size_t index) {
+  const OptionField& field = *rows_[index].field;
+  auto* slider = new QSlider(Qt::Horizontal, this);
+  slider->setObjectName("slider:" + QString::fromStdString(field.name));
+  slider->setAccessibleName(translated_title(field.name));
+  slider->setToolTip(tip_of(field));
+  slider->setRange(0, slider_steps(field));
+  leave_wheel_to_panel(slider);
+  connect(slider, &QSlider::valueChanged, this, [this, index](int step) {
+    const OptionField& of = *rows_[index].field;
+    const double value = value_at(of, step);
+    const std::string text = format_quantity(value, of.quantity);
+    // A count takes whole numbers only.
+    const bool good = of.set(text).has_value();
+    take(index, QString::fromStdString(good ? text : fmt::format("{:.0f}", value)));
+    show_value(rows_[index]);
+  });
+  return slider;
+}
+
+void OptionForm::show_on_slider(const Row& row) {
+  if (!row.slider || row.slider->isSliderDown()) return;
+  const auto value = parse_quantity(row.field->get(), row.field->quantity);
+  const QSignalBlocker quiet(row.slider);
+  row.slider->setValue(value ? step_of(*row.field, *value) : 0);
+}
+
 void OptionForm::take(std::size_t index, const QString& text) {
   Row& row = rows_[index];
   const OptionField& field = *row.field;
@@ -137,6 +202,7 @@ void OptionForm::take(std::size_t index, const QString& text) {
   row.problem = set ? QString() : QString::fromStdString(set.error().text());
   if (!set) (void)field.set(before);
   show_problem(row);
+  show_on_slider(row);
   Q_EMIT changed();
 }
 
@@ -153,6 +219,7 @@ void OptionForm::show_problem(Row& row) {
 void OptionForm::show_value(const Row& row) {
   const QString value = QString::fromStdString(row.field->get());
   const QSignalBlocker quiet(row.editor);
+  show_on_slider(row);
   if (row.field->is_flag) {
     static_cast<QCheckBox*>(row.editor)->setChecked(value == "true");
   } else if (!row.field->choices.empty()) {

@@ -10,6 +10,7 @@
 
 class QGridLayout;
 class QLabel;
+class QSlider;
 
 namespace turnscan::studio {
 
@@ -17,8 +18,10 @@ class OptionForm : public QWidget {
   Q_OBJECT
  public:
   /// The table refers to a struct that must outlive the form. The editor of the field "voxel-size"
-  /// has the object name "option:voxel-size". hide: fields without a row.
-  explicit OptionForm(OptionTable table, const QStringList& hide = {}, QWidget* parent = nullptr);
+  /// has the object name "option:voxel-size". hide: fields without a row. sliders: numbers that
+  /// get one too, "slider:voxel-size".
+  explicit OptionForm(OptionTable table, const QStringList& hide = {}, QWidget* parent = nullptr,
+                      const QStringList& sliders = {});
 
   /// Whether every typed text was accepted; the struct holds the last valid values.
   bool valid() const;
@@ -48,16 +51,19 @@ class OptionForm : public QWidget {
   struct Row {
     const OptionField* field = nullptr;
     QWidget* editor = nullptr;
+    QSlider* slider = nullptr;  ///< may be none
     QLabel* error = nullptr;
     std::string initial;  ///< the default
     QString problem;
   };
 
-  void add_row(const OptionField& field);
+  void add_row(const OptionField& field, bool with_slider);
   QWidget* make_editor(std::size_t row);
+  QSlider* make_slider(std::size_t row);
   void take(std::size_t row, const QString& text);
   void show_problem(Row& row);
   void show_value(const Row& row);
+  void show_on_slider(const Row& row);
 
   OptionTable table_;
   std::vector<Row> rows_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 #include <turnscan/io/text/toml_options.hpp>
 #include <turnscan/sensors/scanner_file.hpp>
 
@@ -65,26 +66,73 @@ std::vector<std::string> scanner_presets() {
                 : std::vector<std::string>();
 }
 
-Result<ScannerModel> read_scanner(const fs::path& file) {
+namespace {
+
+Result<ScannerParameters> parameters_in(const fs::path& file) {
   TURNSCAN_ASSIGN(const toml::table table, scene::read_toml(file));
   ScannerParameters parameters;
   parameters.name = file.stem().string();
   TURNSCAN_TRY(read_parameters(file, table, parameters));
-  auto model = scanner_model(parameters);
-  if (!model) return fail_at(file.string(), ErrorCode::kInvalidOption, "{}", model.error().message);
-  return model;
+  return parameters;
 }
 
-Result<ScannerModel> find_scanner(std::string_view name_or_file) {
+Result<fs::path> scanner_path(std::string_view name_or_file) {
   if (name_or_file.ends_with(".toml") || name_or_file.find('/') != std::string_view::npos)
-    return read_scanner(fs::path(name_or_file));
+    return fs::path(name_or_file);
   TURNSCAN_ASSIGN(const fs::path folder, data_folder());
   TURNSCAN_ASSIGN(const std::vector<std::string> names, presets_in(folder));
   if (std::find(names.begin(), names.end(), name_or_file) == names.end())
     return fail(ErrorCode::kNotFound,
                 "scanner: there is no '{}'; use one of {}, or the path of a .toml file",
                 name_or_file, fmt::join(names, ", "));
-  return read_scanner(folder / "scanners" / (std::string(name_or_file) + ".toml"));
+  return folder / "scanners" / (std::string(name_or_file) + ".toml");
+}
+
+}  // namespace
+
+Result<ScannerModel> read_scanner(const fs::path& file) {
+  TURNSCAN_ASSIGN(const ScannerParameters parameters, parameters_in(file));
+  auto model = scanner_model(parameters);
+  if (!model) return fail_at(file.string(), ErrorCode::kInvalidOption, "{}", model.error().message);
+  return model;
+}
+
+Result<ScannerModel> find_scanner(std::string_view name_or_file) {
+  TURNSCAN_ASSIGN(const fs::path file, scanner_path(name_or_file));
+  return read_scanner(file);
+}
+
+Result<ScannerParameters> find_scanner_parameters(std::string_view name_or_file) {
+  TURNSCAN_ASSIGN(const fs::path file, scanner_path(name_or_file));
+  return parameters_in(file);
+}
+
+OptionTable describe_all(ScannerParameters& parameters) {
+  OptionTable table = describe(parameters);
+  table.append(describe(parameters.noise));
+  return table;
+}
+
+Result<std::string> scanner_toml(std::string_view name_or_file,
+                                 const std::vector<std::pair<std::string, std::string>>& changed) {
+  TURNSCAN_ASSIGN(const fs::path file, scanner_path(name_or_file));
+  TURNSCAN_ASSIGN(toml::table table, scene::read_toml(file));
+  ScannerParameters parameters;
+  TURNSCAN_TRY(read_parameters(file, table, parameters));
+  const OptionTable options = describe_all(parameters), own = describe(parameters);
+  for (const auto& [key, value] : changed) {
+    TURNSCAN_TRY(options.set(key, value));
+    if (own.find(key) == nullptr) {
+      table.emplace<toml::table>("noise");
+      table["noise"].as_table()->insert_or_assign(key, value);
+    } else {
+      table.insert_or_assign(key, value);
+    }
+  }
+  TURNSCAN_TRY(scanner_model(parameters));
+  std::ostringstream text;
+  text << toml::toml_formatter{table, toml::format_flags::none} << '\n';
+  return text.str();
 }
 
 }  // namespace turnscan

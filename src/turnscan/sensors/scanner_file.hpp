@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <turnscan/sensors/scanner_model.hpp>
+#include <utility>
 #include <vector>
 
 namespace turnscan {
@@ -17,6 +18,19 @@ Result<ScannerModel> read_scanner(const std::filesystem::path& file);
 /// The scanner of a preset's name, or of a file if the text ends in .toml or has a slash in it.
 /// Fails with kNotFound, listing the presets, and as read_scanner.
 Result<ScannerModel> find_scanner(std::string_view name_or_file);
+
+/// The same, as what its file says.
+Result<ScannerParameters> find_scanner_parameters(std::string_view name_or_file);
+
+/// All keys of a scanner's file, those of its table [noise] too. The table refers to the
+/// parameters.
+OptionTable describe_all(ScannerParameters& parameters);
+
+/// Text of the file of a scanner like another one, with other values for some of the keys of
+/// describe_all(); all others stay as exact as they are written there. Fails as find_scanner, and
+/// with kInvalidOption.
+Result<std::string> scanner_toml(std::string_view name_or_file,
+                                 const std::vector<std::pair<std::string, std::string>>& changed);
 
 /// Names of the presets, sorted; empty where there are none.
 std::vector<std::string> scanner_presets();

@@ -45,12 +45,12 @@ Result<ScannerEntry> read_scanner_entry(const fs::path& file, const toml::table&
     return scene::fail_in_toml(file, table, "a [[scanner]] needs its model: a preset or a file");
   if (is_path(entry.model)) entry.model = beside(file, entry.model);
   // Checked here, where the line is known; used once everything is read.
-  ScannerPlacement trial;
+  ScannerSetup trial;
   TURNSCAN_TRY(scene::set_from_toml(file, table, describe(trial), {"model"}));
   for (const auto& [key, node] : table) {
     if (key.str() == "model") continue;
     TURNSCAN_ASSIGN(std::string value, scene::toml_text(file, key.str(), node));
-    entry.placement.emplace_back(std::string(key.str()), std::move(value));
+    entry.options.emplace_back(std::string(key.str()), std::move(value));
   }
   return entry;
 }
@@ -191,19 +191,38 @@ Result<ScannerEntry> parse_scanner_entry(std::string_view text) {
                   "scanner = {}: '{}' has no value; write NAME=VALUE, e.g. azimuth=90deg", text,
                   part);
     } else {
-      entry.placement.emplace_back(part.substr(0, equals), part.substr(equals + 1));
+      entry.options.emplace_back(part.substr(0, equals), part.substr(equals + 1));
     }
     begin = end + 1;
   }
   if (entry.model.empty())
     return fail(ErrorCode::kInvalidOption,
                 "scanner = {} names no scanner; begin with a preset or a file", text);
-  ScannerPlacement trial;
+  ScannerSetup trial;
   const OptionTable table = describe(trial);
-  for (const auto& [name, value] : entry.placement)
+  for (const auto& [name, value] : entry.options)
     if (auto set = table.set(name, value); !set)
       return fail(ErrorCode::kInvalidOption, "scanner = {}: {}", text, set.error().message);
   return entry;
+}
+
+OptionTable describe(ScannerSetup& setup) {
+  OptionTable table = describe(setup.placement);
+  table.append(describe_all(setup.parameters));
+  return table;
+}
+
+Result<ScannerSetup> scanner_setup(const ScannerEntry& entry, const ScannerPlacement& common) {
+  ScannerSetup setup;
+  TURNSCAN_ASSIGN(setup.parameters, find_scanner_parameters(entry.model));
+  setup.placement = common;
+  const OptionTable table = describe(setup);
+  for (const auto& [name, value] : entry.options) TURNSCAN_TRY(table.set(name, value));
+  const auto usable = scanner_model(setup.parameters);
+  if (!usable)
+    return fail_at(is_path(entry.model) ? entry.model : "", ErrorCode::kInvalidOption, "{}",
+                   usable.error().message);
+  return setup;
 }
 
 std::vector<SceneTable> describe(SceneDescription& scene) {
@@ -250,7 +269,7 @@ std::string scene_toml(const SceneDescription& scene) {
   for (const ScannerEntry& entry : scanners_of(scene)) {
     text += "\n[[scanner]]\n" +
             entry_line("model", is_path(entry.model) ? absolute(entry.model) : entry.model, false);
-    for (const auto& [name, value] : entry.placement) text += entry_line(name, value, false);
+    for (const auto& [name, value] : entry.options) text += entry_line(name, value, false);
   }
   for (const PassEntry& pass : scene.next_passes) {
     text += "\n[[pass]]\n";
@@ -262,11 +281,9 @@ std::string scene_toml(const SceneDescription& scene) {
 Result<VirtualScanOptions> scan_options(const SceneDescription& scene) {
   VirtualScanOptions options;
   for (const ScannerEntry& entry : scanners_of(scene)) {
-    TURNSCAN_ASSIGN(ScannerModel model, find_scanner(entry.model));
-    ScannerPlacement placement = scene.placement;
-    const OptionTable table = describe(placement);
-    for (const auto& [name, value] : entry.placement) TURNSCAN_TRY(table.set(name, value));
-    options.scanners.push_back({std::move(model), placement});
+    TURNSCAN_ASSIGN(const ScannerSetup setup, scanner_setup(entry, scene.placement));
+    TURNSCAN_ASSIGN(ScannerModel model, scanner_model(setup.parameters));
+    options.scanners.push_back({std::move(model), setup.placement});
   }
   options.motion = scene.motion;
   options.platter = scene.platter;

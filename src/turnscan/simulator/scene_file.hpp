@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <turnscan/sensors/scanner_model.hpp>
 #include <turnscan/simulator/objects/object_placement.hpp>
 #include <turnscan/simulator/virtual_scan.hpp>
 #include <utility>
@@ -12,11 +13,25 @@
 
 namespace turnscan {
 
-/// A preset or file, and its own placement options: "kinect-v2,azimuth=90deg,roll=10deg".
+/// A scanner as it is and where it stands.
+struct ScannerSetup {
+  ScannerParameters parameters;
+  ScannerPlacement placement;
+};
+
+/// The options of its place, and all keys of a scanner's file.
+OptionTable describe(ScannerSetup& setup);
+
+/// A preset or file, and values of its own for any of describe(ScannerSetup&):
+/// "kinect-v2,azimuth=90deg,far=2m".
 struct ScannerEntry {
   std::string model;
-  std::vector<std::pair<std::string, std::string>> placement;  ///< names of describe(), values
+  std::vector<std::pair<std::string, std::string>> options;  ///< names, values
 };
+
+/// With the common place where the entry has none of its own. Fails as find_scanner, and with
+/// kInvalidOption.
+Result<ScannerSetup> scanner_setup(const ScannerEntry& entry, const ScannerPlacement& common);
 
 /// Fails with kInvalidOption. Whether the scanner exists is checked later.
 Result<ScannerEntry> parse_scanner_entry(std::string_view text);
@@ -58,7 +73,7 @@ struct SceneTable {
 std::vector<SceneTable> describe(SceneDescription& scene);
 
 /// Adds the contents of a file: the tables of describe(), in [object] also `file` and `unit`, and
-/// [[scanner]] with `model` and any of the options of [placement], [[pass]] with any of [object]
+/// [[scanner]] with `model` and any of describe(ScannerSetup&), [[pass]] with any of [object]
 /// for each pass after the first. Paths are relative to the file's folder. Fails with kNotFound or
 /// kInvalidOption, naming file and line.
 Result<> read_scene(const std::filesystem::path& file, SceneDescription& scene);

@@ -8,6 +8,7 @@
 #include <turnscan/io/cloud/cloud_io.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/workflow/output_file.hpp>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace turnscan {
@@ -63,18 +64,15 @@ std::uint64_t key_of(const Cell& cell) {
          std::uint64_t(cell.z() + 1);
 }
 
-/// Colours from the weights, if the cloud has none of its own.
-std::vector<Rgb> cube_colors(const PointCloud& cloud) {
-  if (!cloud.colors.empty() || cloud.weights.empty()) return cloud.colors;
+/// The largest weight but for 5 % of the points; 0 if there is none.
+double high_weight(const std::vector<float>& weights) {
   std::vector<float> sorted;
-  for (const float w : cloud.weights)
+  for (const float w : weights)
     if (w > 0.0f && std::isfinite(w)) sorted.push_back(w);
-  if (sorted.empty()) return {};
+  if (sorted.empty()) return 0.0;
   const auto high = sorted.begin() + std::ptrdiff_t(sorted.size() * 95 / 100);
   std::nth_element(sorted.begin(), high, sorted.end());
-  std::vector<Rgb> colors;
-  for (const float w : cloud.weights) colors.push_back(viridis(w > 0.0f ? w / double(*high) : 0.0));
-  return colors;
+  return *high;
 }
 
 /// The side of a cube towards +axis or -axis.
@@ -92,37 +90,74 @@ void add_face(const Vec3f& center, float half, int axis, float side, TriangleMes
 
 }  // namespace
 
-Result<TriangleMesh> cubes_of(const PointCloud& cloud, double min_weight,
-                              const RunContext& context) {
+CloudCubes::CloudCubes(const PointCloud& cloud) : cloud_(cloud), colors_(cloud.colors) {
+  if (cloud.empty()) return;
+  Lattice lattice = lattice_of(cloud.points);
+  half_ =
+      float(lattice.cells.empty() ? 0.3 * median_distance(cloud.points, 4) : 0.5 * lattice.edge_m);
+  cells_ = std::move(lattice.cells);
+  if (!colors_.empty()) return;
+  brightest_ = high_weight(cloud.weights);
+  if (brightest_ > 0.0)
+    for (const float w : cloud.weights) colors_.push_back(viridis(w > 0.0f ? w / brightest_ : 0.0));
+}
+
+Result<TriangleMesh> CloudCubes::mesh(double min_weight) const {
   std::vector<std::uint32_t> shown;
-  for (std::uint32_t i = 0; i < cloud.size(); ++i)
-    if (cloud.weights.empty() || cloud.weights[i] >= min_weight) shown.push_back(i);
+  for (std::uint32_t i = 0; i < cloud_.size(); ++i)
+    if (cloud_.weights.empty() || cloud_.weights[i] >= min_weight) shown.push_back(i);
   if (shown.empty())
     return fail(ErrorCode::kTooFewPoints, "none of {} points has a weight of {:g} or more",
-                cloud.size(), min_weight);
-  const Lattice lattice = lattice_of(cloud.points);
-  TURNSCAN_TRY(context.check());
+                cloud_.size(), min_weight);
   std::unordered_set<std::uint64_t> filled;
-  if (!lattice.cells.empty())
-    for (const std::uint32_t i : shown) filled.insert(key_of(lattice.cells[i]));
-  const auto half =
-      float(lattice.cells.empty() ? 0.3 * median_distance(cloud.points, 4) : 0.5 * lattice.edge_m);
-  const std::vector<Rgb> colors = cube_colors(cloud);
+  if (on_grid()) {
+    filled.reserve(shown.size());
+    for (const std::uint32_t i : shown) filled.insert(key_of(cells_[i]));
+  }
   TriangleMesh mesh;
   for (const std::uint32_t i : shown) {
     for (int axis = 0; axis < 3; ++axis) {
       for (const int side : {-1, 1}) {
         if (!filled.empty()) {
-          Cell next = lattice.cells[i];
+          Cell next = cells_[i];
           next[axis] += side;
           if (filled.count(key_of(next)) > 0) continue;
         }
-        add_face(cloud.points[i], half, axis, float(side), mesh);
+        add_face(cloud_.points[i], half_, axis, float(side), mesh);
       }
     }
-    if (!colors.empty()) mesh.colors.resize(mesh.vertices.size(), colors[i]);
+    if (!colors_.empty()) mesh.colors.resize(mesh.vertices.size(), colors_[i]);
   }
   return mesh;
+}
+
+TriangleMesh CloudCubes::coarser(double min_weight) const {
+  PointCloud coarse;
+  std::unordered_map<std::uint64_t, std::size_t> index;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const float weight = cloud_.weights.empty() ? 1.0f : cloud_.weights[i];
+    if (!cloud_.weights.empty() && !(weight >= min_weight)) continue;
+    const Cell& cell = cells_[i];
+    const Cell odd(cell.x() & 1, cell.y() & 1, cell.z() & 1);
+    const auto [at, added] = index.try_emplace(key_of((cell - odd) / 2), coarse.size());
+    if (added) {
+      coarse.points.push_back(cloud_.points[i] +
+                              half_ * (Vec3f::Ones() - 2.0f * odd.cast<float>()));
+      coarse.weights.push_back(weight);
+      if (!colors_.empty()) coarse.colors.push_back(colors_[i]);
+    } else if (weight > coarse.weights[at->second]) {
+      coarse.weights[at->second] = weight;
+      if (!colors_.empty()) coarse.colors[at->second] = colors_[i];
+    }
+  }
+  return CloudCubes(coarse).mesh(0.0).value_or(TriangleMesh());
+}
+
+Result<TriangleMesh> cubes_of(const PointCloud& cloud, double min_weight,
+                              const RunContext& context) {
+  const CloudCubes cubes(cloud);
+  TURNSCAN_TRY(context.check());
+  return cubes.mesh(min_weight);
 }
 
 Result<TriangleMesh> read_shown(const std::string& path, double min_weight,

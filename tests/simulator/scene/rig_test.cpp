@@ -48,6 +48,20 @@ TEST(ScannerPose, RollsClockwiseSeenFromBehind) {
   expect_near(T * Vec3d(0, 0, 0.9), {0, 0.1, 0});
 }
 
+TEST(ScannerPose, PansToItsRightAndTiltsUp) {
+  ScannerPlacement p;
+  p.elevation_rad = 0.0;
+  const Pose ahead = scanner_pose(p, 0.1, 0.5, Vec3d::UnitY());
+  p.pan_rad = 0.2;
+  Pose turned = scanner_pose(p, 0.1, 0.5, Vec3d::UnitY());
+  EXPECT_NEAR((ahead.inverse() * turned).linear().col(2).x(), std::sin(0.2), 1e-12);
+  EXPECT_EQ(turned.translation(), ahead.translation());
+  p.pan_rad = 0.0;
+  p.tilt_rad = 0.2;
+  turned = scanner_pose(p, 0.1, 0.5, Vec3d::UnitY());
+  EXPECT_NEAR(turned.linear().col(2).y(), std::sin(0.2), 1e-12);
+}
+
 TEST(ScannerPose, TravelsEvenlyAndIsInItsPlaceHalfway) {
   ScannerPlacement p;
   p.travel_m = 0.2;

@@ -49,6 +49,8 @@ LookPanel::LookPanel(SceneView& view, ModelStore& store, QWidget* parent)
       isolate_(button(tr("Isolate"), tr("Show the selected model alone"), this)),
       movie_(button(tr("Turntable movie…"),
                     tr("A film or pictures of the view, turned once about the vertical"), this)),
+      stages_(button(tr("Stages…"), tr("What is checked in the list, side by side in one picture"),
+                     this)),
       occlusion_(new QCheckBox(tr("Ambient occlusion"), this)) {
   surface_->setObjectName("look_surface");
   surface_->addItems({tr("Shaded"), tr("Shaded, with edges"), tr("Wireframe"), tr("Normals")});
@@ -80,6 +82,7 @@ LookPanel::LookPanel(SceneView& view, ModelStore& store, QWidget* parent)
   grid->addWidget(make_clip_row(), 2, 1, 1, 2);
   grid->addWidget(occlusion_, 3, 0, 1, 2);
   grid->addWidget(movie_, 3, 2);
+  grid->addWidget(stages_, 4, 2);
   grid->setColumnStretch(1, 1);
   connect(surface_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this](int look) {
     if (view_) view_->set_surface_look(SurfaceLook(look));
@@ -88,6 +91,7 @@ LookPanel::LookPanel(SceneView& view, ModelStore& store, QWidget* parent)
           [this](int percent) { store_.set_opacity(model_, 0.01 * percent); });
   connect(isolate_, &QPushButton::toggled, this, &LookPanel::isolation_changed);
   connect(movie_, &QPushButton::clicked, this, &LookPanel::movie_wanted);
+  connect(stages_, &QPushButton::clicked, this, &LookPanel::stages_wanted);
   connect(occlusion_, &QCheckBox::toggled, this, [this](bool on) {
     if (view_) view_->set_ambient_occlusion(on);
   });
@@ -131,6 +135,7 @@ void LookPanel::follow() {
   opacity_->setEnabled(model != nullptr);
   opacity_->setValue(model ? int(std::lround(100.0 * model->opacity)) : 100);
   movie_->setEnabled(!store_.models().empty());
+  stages_->setEnabled(!store_.models().empty());
   clip();
 }
 

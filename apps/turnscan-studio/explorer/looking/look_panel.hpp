@@ -28,6 +28,7 @@ class LookPanel : public QWidget {
  Q_SIGNALS:
   void isolation_changed();
   void movie_wanted();
+  void stages_wanted();
 
  private:
   QWidget* make_clip_row();
@@ -39,7 +40,7 @@ class LookPanel : public QWidget {
   int model_ = 0;
   QComboBox *surface_, *axis_;
   QSlider *opacity_, *place_;
-  QPushButton *isolate_, *flip_, *movie_;
+  QPushButton *isolate_, *flip_, *movie_, *stages_;
   QCheckBox* occlusion_;
 };
 

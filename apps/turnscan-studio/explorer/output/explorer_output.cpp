@@ -12,6 +12,7 @@
 #include "explorer/looking/movie.hpp"
 #include "explorer/model_list.hpp"
 #include "explorer/output/export_dialog.hpp"
+#include "explorer/output/stage_sheet.hpp"
 #include "explorer/scan_quality.hpp"
 #include "explorer/stage_panel.hpp"
 #include "explorer/stage_runs.hpp"
@@ -104,6 +105,27 @@ void ExplorerMode::movie_dialog() {
   settings.setValue("files/folder", QFileInfo(path).absolutePath());
   constexpr int kFrames = 120;  // five seconds
   make_movie(path, kFrames);
+}
+
+void ExplorerMode::show_stages() {
+  stages_->show_error({});
+  std::vector<Model> shown;
+  for (const Model& model : store_->models())
+    if (model.visible) shown.push_back(model);
+  jobs().start(
+      tr("Stages"), this,
+      [this, shown](const RunContext& context) -> Result<Finish> {
+        TURNSCAN_ASSIGN(const QImage sheet, stage_sheet(shown, context));
+        return Finish([this, sheet] {
+          auto* dialog = new SheetDialog(sheet, this);
+          connect(dialog, &SheetDialog::failed, stages_, &StagePanel::show_error);
+          connect(dialog, &SheetDialog::saved, this, [this](const QString& file) {
+            Q_EMIT status(tr("Wrote %1").arg(shown_path(file)));
+          });
+          dialog->show();
+        });
+      },
+      [this](const QString& text) { stages_->show_error(text); });
 }
 
 void ExplorerMode::make_movie(const QString& path, int frames) {

@@ -8,6 +8,12 @@ namespace {
 
 constexpr double kRightAngle = kTurn / 4;
 
+/// About an axis of the sensor's own. Without an angle the pose keeps its bytes.
+void turn(Pose& T, double angle_rad, const Vec3d& axis) {
+  if (angle_rad != 0.0)
+    T.linear() = T.linear() * Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
+}
+
 /// Adds to the scanner's table, which lists placement and knock.
 void add_knock(OptionTable& table, ScannerKnock& k) {
   table
@@ -44,6 +50,10 @@ OptionTable describe(ScannerPlacement& p) {
               "How far beside the axis that point lies, along X.")
       .number("aim-z", p.aim_z_m, Quantity::kLength, {-10.0, 10.0},
               "How far beside the axis that point lies, along Z.")
+      .number("pan", p.pan_rad, Quantity::kAngle, {-kTurn, kTurn},
+              "Turn of the scanner to its right, away from that point.")
+      .number("tilt", p.tilt_rad, Quantity::kAngle, {-kTurn, kTurn},
+              "Turn of the scanner up, away from that point.")
       .number("roll", p.roll_rad, Quantity::kAngle, {-kTurn, kTurn},
               "Turn of the scanner about its viewing axis, clockwise seen from behind it. The line "
               "of a line scanner is upright at 0deg and level at 90deg.")
@@ -85,8 +95,9 @@ Pose scanner_pose(const ScannerPlacement& p, double aim_height_m, double travell
   Pose T = Pose::Identity();
   T.translation() = aim - p.distance_m * look.col(2) + (travelled - 0.5) * p.travel_m * way;
   T.linear() = look;
-  if (p.roll_rad != 0.0)
-    T.linear() = look * Eigen::AngleAxisd(p.roll_rad, Vec3d::UnitZ()).toRotationMatrix();
+  turn(T, p.pan_rad, Vec3d::UnitY());
+  turn(T, p.tilt_rad, Vec3d::UnitX());
+  turn(T, p.roll_rad, Vec3d::UnitZ());
   return T;
 }
 

@@ -29,6 +29,8 @@ struct ScannerPlacement {
   double azimuth_rad = 0.0;  ///< about the table, counter-clockwise seen from above; 0: on -Z
   std::optional<double> aim_height_m;   ///< of the point it looks at; nullopt: middle of the object
   double aim_x_m = 0.0, aim_z_m = 0.0;  ///< of that point; world
+  double pan_rad = 0.0;                 ///< from that point to its right
+  double tilt_rad = 0.0;                ///< up
   double roll_rad = 0.0;                ///< about the viewing axis, clockwise seen from behind
   double travel_m = 0.0;                ///< from its first to its last frame
   TravelAlong travel_along = TravelAlong::kAxis;

@@ -59,6 +59,10 @@ class Drawing {
     svg += axes();
     for (std::size_t s = 0; s < plot_.series.size(); ++s)
       svg += plot_.kind == Plot::Kind::kBars ? bars(plot_.series[s]) : line(s);
+    if (plot_.marked)
+      svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"5\" fill=\"{}\"/>\n",
+                         at_x(plot_.x[*plot_.marked]), at_y(plot_.series[0].y[*plot_.marked]),
+                         kColors[0]);
     return svg + "</svg>\n";
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Plots as plain SVG, each with its values as an accessible table.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Plot {
   Kind kind = Kind::kLines;
   std::vector<double> x;  ///< ascending; for bars their centres, evenly spaced
   std::vector<Series> series;
+  std::optional<std::size_t> marked;  ///< a value of the first series that gets a dot
 };
 
 /// About `count` ticks at multiples of 1, 2 or 5 times a power of ten, from at or below low to at

@@ -93,13 +93,14 @@ Result<PlanObject> load_plan_object(const PlanRequest& request, const std::strin
 }
 
 Result<PlanScanner> load_plan_scanner(const PlanRequest& request, const ScannerEntry& entry) {
-  TURNSCAN_ASSIGN(ScannerModel model, find_scanner(entry.model));
+  TURNSCAN_ASSIGN(const ScannerSetup setup, scanner_setup(entry, request.scene.placement));
+  TURNSCAN_ASSIGN(ScannerModel model, scanner_model(setup.parameters));
   if (model.kind == ScannerKind::kLine)
     return fail(ErrorCode::kInvalidOption,
                 "plan: {} is a line scanner, whose travel a plan does not choose; take depth "
                 "cameras",
                 entry.model);
-  for (const auto& [name, value] : entry.placement)
+  for (const auto& [name, value] : entry.options)
     if (name == "distance" || name == "elevation" || name == "azimuth" || name == "aim-height")
       return fail(ErrorCode::kInvalidOption,
                   "scanner {}: the plan chooses its {}; leave it out, or limit it by "
@@ -123,13 +124,12 @@ Result<> add_places(const PlanRequest& request, PlanField& field) {
   for (std::size_t s = 0; s < field.scanners.size(); ++s) {
     TURNSCAN_ASSIGN(const DistanceRange range,
                     distances_of(request, field, field.scanners[s].model));
+    TURNSCAN_ASSIGN(const ScannerSetup setup,
+                    scanner_setup(field.scanners[s].given, request.scene.placement));
     field.distance_step_m = (range.greatest_m - range.least_m) / std::max(1, o.distances - 1);
     for (int d = 0; d < o.distances; ++d) {
       for (int e = 0; e < o.elevations; ++e) {
-        PlanPlace place{s, request.scene.placement};
-        const OptionTable table = describe(place.placement);
-        for (const auto& [name, value] : field.scanners[s].given.placement)
-          TURNSCAN_TRY(table.set(name, value));
+        PlanPlace place{s, setup.placement};
         place.placement.distance_m = step(range.least_m, range.greatest_m, o.distances, d);
         place.placement.elevation_rad =
             step(o.lowest_elevation_rad, o.highest_elevation_rad, o.elevations, e);
@@ -222,7 +222,7 @@ ScannerEntry entry_of(const PlanField& field, const PlanPlace& place) {
   ScannerEntry entry = field.scanners[place.scanner].given;
   const ScannerPlacement& at = place.placement;
   const auto add = [&](const char* name, double value, Quantity quantity) {
-    entry.placement.emplace_back(name, format_quantity(value, quantity));
+    entry.options.emplace_back(name, format_quantity(value, quantity));
   };
   add("distance", at.distance_m, Quantity::kLength);
   add("elevation", at.elevation_rad, Quantity::kAngle);

@@ -15,7 +15,7 @@ std::string millimetres(double metres) {
 
 std::string sensor_words(const ScannerEntry& entry) {
   std::string out = entry.model;
-  for (const auto& [name, value] : entry.placement) out += fmt::format(", {} {}", name, value);
+  for (const auto& [name, value] : entry.options) out += fmt::format(", {} {}", name, value);
   return out;
 }
 
@@ -39,7 +39,7 @@ nlohmann::json number_json(double value) {
 nlohmann::json plan_part_json(const Plan& plan) {
   nlohmann::json sensors = nlohmann::json::array(), passes = nlohmann::json::array();
   for (const ScannerEntry& entry : plan.sensors) {
-    nlohmann::json sensor = entries_json(entry.placement);
+    nlohmann::json sensor = entries_json(entry.options);
     sensor["model"] = entry.model;
     sensors.push_back(std::move(sensor));
   }

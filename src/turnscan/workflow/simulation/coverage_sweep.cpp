@@ -19,11 +19,6 @@ const OptionField* find_field(const std::vector<SceneTable>& tables, const std::
   return nullptr;
 }
 
-const SweptCoverage& best_of(const std::vector<SweptCoverage>& swept) {
-  return *std::max_element(swept.begin(), swept.end(),
-                           [](const auto& a, const auto& b) { return a.covered < b.covered; });
-}
-
 std::string best_text(const SweepRange& range, const std::vector<SweptCoverage>& swept) {
   const SweptCoverage& best = best_of(swept);
   return fmt::format("{} = {} covers most: {:.1f} %", range.option,
@@ -31,6 +26,11 @@ std::string best_text(const SweepRange& range, const std::vector<SweptCoverage>&
 }
 
 }  // namespace
+
+const SweptCoverage& best_of(const std::vector<SweptCoverage>& swept) {
+  return *std::max_element(swept.begin(), swept.end(),
+                           [](const auto& a, const auto& b) { return a.covered < b.covered; });
+}
 
 Result<SweepRange> parse_sweep_range(const std::string& text, SceneDescription scene) {
   const std::size_t equals = text.find('='), dots = text.find("..");
@@ -130,6 +130,7 @@ std::string sweep_svg(const SweepRange& range, const std::vector<SweptCoverage>&
     plot.x.push_back(scale * s.value);
     plot.series.front().y.push_back(100.0 * s.covered);
   }
+  plot.marked = std::size_t(&best_of(swept) - swept.data());
   return page::svg_file(plot);
 }
 

@@ -32,10 +32,13 @@ Result<std::vector<SweptCoverage>> sweep_coverage(const SceneDescription& scene,
                                                   const CoverageMapOptions& options,
                                                   const RunContext& context);
 
-/// A table of the shares in percent, and the value that covers most (of equals the first).
+/// The one that covers most, of equals the first. There must be one.
+const SweptCoverage& best_of(const std::vector<SweptCoverage>& swept);
+
+/// A table of the shares in percent, and the best value.
 std::string sweep_text(const SweepRange& range, const std::vector<SweptCoverage>& swept);
 
-/// The covered share over the values, as an SVG file.
+/// The covered share over the values with the best marked, as an SVG file.
 std::string sweep_svg(const SweepRange& range, const std::vector<SweptCoverage>& swept);
 
 }  // namespace turnscan
