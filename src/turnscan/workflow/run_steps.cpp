@@ -122,8 +122,11 @@ Result<> judge(const std::vector<PlacedRecording>& placed, const std::vector<Pas
   known.table_recorded = first.header().turntable && !run.choice.calibration && !has_poses(first) &&
                          !placed_anew(run.choice);
   if (known.table_recorded) {
-    TURNSCAN_ASSIGN(known.platter, platter_against_calibration(
-                                       before_knock(first, run.choice.disturbances), context));
+    const SequenceView before = before_knock(first, run.choice.disturbances);
+    const bool knocked = before.frames().size() < first.frames().size();
+    TURNSCAN_ASSIGN(
+        known.platter,
+        platter_against_calibration(before, knocked ? std::nullopt : run.choice.platter, context));
   }
   for (PassApart& pass : run.apart) judge_objects(pass.reconstruction, known);
   const Reconstruction& made = run.reconstruction;

@@ -66,20 +66,35 @@ testing::MemorySequence scan_with_table_off(double height_m) {
 }
 
 TEST(PlatterAgainstCalibration, SeesAStaleOne) {
-  const auto good = workflow::platter_against_calibration(scan_with_table_off(0.0), {});
+  const auto good = workflow::platter_against_calibration(scan_with_table_off(0.0), {}, {});
   ASSERT_TRUE(good && *good);
   EXPECT_FALSE((*good)->moved) << (*good)->text;
   EXPECT_NEAR((*good)->height_m, 0.0, 0.001);
-  const auto stale = workflow::platter_against_calibration(scan_with_table_off(0.006), {});
+  const auto stale = workflow::platter_against_calibration(scan_with_table_off(0.006), {}, {});
   ASSERT_TRUE(stale && *stale);
   EXPECT_TRUE((*stale)->moved);
   EXPECT_NEAR((*stale)->height_m, -0.006, 0.001);
 }
 
+TEST(PlatterAgainstCalibration, BelievesAPlatterFoundBeforeOnlyWhereTheCalibrationHasIt) {
+  const auto scan = scan_with_table_off(0.0);
+  const TurntableInfo& table = *scan.header_value.turntable;
+  DetectedPlatter found;
+  found.axis = table.axis;
+  found.center_m = table.center_m + 0.002 * table.axis;
+  const auto known = workflow::platter_against_calibration(scan, found, {});
+  ASSERT_TRUE(known && *known);
+  EXPECT_NEAR((*known)->height_m, 0.002, 1e-9) << "not looked for again";
+  found.center_m = table.center_m + 0.05 * table.axis;
+  const auto anew = workflow::platter_against_calibration(scan, found, {});
+  ASSERT_TRUE(anew && *anew);
+  EXPECT_NEAR((*anew)->height_m, 0.0, 0.001) << "another disc";
+}
+
 TEST(PlatterAgainstCalibration, SaysNothingWithoutATurntable) {
   auto scan = scan_with_table_off(0.0);
   scan.header_value.turntable.reset();
-  const auto check = workflow::platter_against_calibration(scan, {});
+  const auto check = workflow::platter_against_calibration(scan, {}, {});
   ASSERT_TRUE(check);
   EXPECT_FALSE(*check);
 }

@@ -32,28 +32,6 @@ double at_least(double limit, double sigma) {
   return std::isfinite(sigma) ? std::max(limit, 4.0 * sigma) : limit;
 }
 
-/// Compares the currently visible platter with the calibration.
-RigCheck compare(const DetectedPlatter& now, const Calibration& calibration) {
-  const TurntableInfo& then = calibration.table;
-  const Vec3d axis = then.axis.normalized();
-  const Vec3d offset = now.center_m - then.center_m;
-  RigCheck check;
-  check.height_m = offset.dot(axis);
-  check.shift_m = (offset - check.height_m * axis).norm();
-  check.tilt_rad = std::acos(std::clamp(now.axis.normalized().dot(axis), -1.0, 1.0));
-  check.moved = std::abs(check.height_m) > at_least(kMovedHeight_m, now.height_sigma_m) ||
-                check.tilt_rad > at_least(kMovedTilt_rad, now.axis_sigma_rad) ||
-                check.shift_m > at_least(kMovedShift_m, now.center_sigma_m);
-  check.text = fmt::format(
-      "{}: the platter lies {:.1f} mm {}, {:.1f} mm aside and tilted by {:.2f} deg against the "
-      "calibration{}",
-      check.moved ? "the rig has moved" : "the rig stands as calibrated",
-      1e3 * std::abs(check.height_m), check.height_m < 0.0 ? "lower" : "higher",
-      1e3 * check.shift_m, check.tilt_rad / kRadiansPerDegree,
-      check.moved ? "; calibrate anew" : "");
-  return check;
-}
-
 /// Without the rim: compares the height of the surface seen at the platter's position.
 RigCheck compare_height(const AveragedScan& scan, const Calibration& calibration,
                         const Pose& T_table_sensor, const std::string& why) {
@@ -115,13 +93,34 @@ std::string date_of_calibration(const SourceInfo& device) {
   return started != device.settings.end() && utc_seconds(started->second) ? started->second : "";
 }
 
+RigCheck compare_platter(const DetectedPlatter& now, const Calibration& calibration) {
+  const TurntableInfo& then = calibration.table;
+  const Vec3d axis = then.axis.normalized();
+  const Vec3d offset = now.center_m - then.center_m;
+  RigCheck check;
+  check.height_m = offset.dot(axis);
+  check.shift_m = (offset - check.height_m * axis).norm();
+  check.tilt_rad = std::acos(std::clamp(now.axis.normalized().dot(axis), -1.0, 1.0));
+  check.moved = std::abs(check.height_m) > at_least(kMovedHeight_m, now.height_sigma_m) ||
+                check.tilt_rad > at_least(kMovedTilt_rad, now.axis_sigma_rad) ||
+                check.shift_m > at_least(kMovedShift_m, now.center_sigma_m);
+  check.text = fmt::format(
+      "{}: the platter lies {:.1f} mm {}, {:.1f} mm aside and tilted by {:.2f} deg against the "
+      "calibration{}",
+      check.moved ? "the rig has moved" : "the rig stands as calibrated",
+      1e3 * std::abs(check.height_m), check.height_m < 0.0 ? "lower" : "higher",
+      1e3 * check.shift_m, check.tilt_rad / kRadiansPerDegree,
+      check.moved ? "; calibrate anew" : "");
+  return check;
+}
+
 Result<RigCheck> check_rig(const AveragedScan& scan, const Calibration& calibration,
                            const RunContext& context) {
   TURNSCAN_ASSIGN(const Pose T_table_sensor, table_from_sensor(calibration.table));
   DetectOptions options;
   options.radius_m = calibration.table.radius_m;
   const auto found = detect_platter(scan, options, context);
-  if (found) return compare(*found, calibration);
+  if (found) return compare_platter(*found, calibration);
   if (found.error().code == ErrorCode::kCancelled) return tl::unexpected<Error>(found.error());
   return compare_height(scan, calibration, T_table_sensor, "its rim is not seen well enough");
 }

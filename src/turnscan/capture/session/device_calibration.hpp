@@ -41,6 +41,9 @@ struct RigCheck {
 /// Thresholds above which a rig counts as moved (or four standard deviations if that is larger).
 inline constexpr double kMovedHeight_m = 0.0025, kMovedTilt_rad = 0.0105, kMovedShift_m = 0.004;
 
+/// Compares a platter that was found with the calibration.
+RigCheck compare_platter(const DetectedPlatter& now, const Calibration& calibration);
+
 /// Detects the platter in an average of a few frames (an object may be on it). If its rim is not
 /// visible, only its height is compared; if no platter is found at the calibrated pose, the rig has
 /// moved. Fails with kCancelled, and kFormat if the calibration has no axis.

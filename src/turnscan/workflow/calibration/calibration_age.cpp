@@ -50,8 +50,9 @@ std::string age_text(const ScanDates& dates) {
                      day);
 }
 
-Result<std::optional<RigCheck>> platter_against_calibration(const FrameSequence& sequence,
-                                                            const RunContext& context) {
+Result<std::optional<RigCheck>> platter_against_calibration(
+    const FrameSequence& sequence, const std::optional<DetectedPlatter>& seen,
+    const RunContext& context) {
   const SequenceView reduced = reduced_frames(sequence, kPixelsToCheck);
   const SequenceHeader& header = reduced.header();
   if (!header.turntable || header.sensors.empty() ||
@@ -59,6 +60,11 @@ Result<std::optional<RigCheck>> platter_against_calibration(const FrameSequence&
     return std::nullopt;
   Calibration calibration;
   calibration.table = *header.turntable;
+  if (seen) {
+    const RigCheck check = compare_platter(*seen, calibration);
+    // Found without the calibrated radius, it may be another disc.
+    if (!check.moved) return check;
+  }
   const auto scan =
       average_frames(reduced, spread_positions(reduced, 0, kFrames), AverageOptions(), context);
   const auto check =

@@ -24,10 +24,12 @@ ScanDates dates_of(const FrameSequence& sequence, const std::string& turntable_f
 /// not known.
 std::string age_text(const ScanDates& dates);
 
-/// Compares the platter seen in up to 12 frames of the recording's first sensor with the sequence's
-/// turntable. nullopt if there is nothing to compare: no depth camera, no turntable, the platter is
-/// not visible or was cropped away. Fails with kCancelled.
-Result<std::optional<RigCheck>> platter_against_calibration(const FrameSequence& sequence,
-                                                            const RunContext& context);
+/// Compares the platter with the sequence's turntable: `seen`, if that was found before and stands
+/// as calibrated, else the one in up to 12 frames of the recording's first sensor. nullopt if there
+/// is nothing to compare: no depth camera, no turntable, the platter is not visible or was cropped
+/// away. Fails with kCancelled.
+Result<std::optional<RigCheck>> platter_against_calibration(
+    const FrameSequence& sequence, const std::optional<DetectedPlatter>& seen,
+    const RunContext& context);
 
 }  // namespace turnscan::workflow

@@ -329,7 +329,18 @@ Result<std::optional<CalibrationChoice>> if_sound(const FrameSequence& coarse,
   CalibrationChoice out;
   TURNSCAN_ASSIGN(out.checks, check_as_used(coarse, request, memory, context));
   if (doubt_of(out.checks)) return std::nullopt;
+  out.platter = memory.platter;
   return out;
+}
+
+Result<CalibrationChoice> by_mode(const FrameSequence& sequence, const CalibrationRequest& request,
+                                  PlatterMemory& memory, const RunContext& context) {
+  if (request.mode == "recorded") return as_recorded(sequence, request, memory, context);
+  if (request.mode == "motion")
+    return from_motion(sequence, request, "--calibration motion was given", memory, context);
+  if (request.mode == "auto") return automatic(sequence, request, memory, context);
+  return fail(ErrorCode::kInvalidOption,
+              "--calibration {}: there is no such way; use auto, recorded or motion", request.mode);
 }
 
 /// For angles of the right sense.
@@ -343,12 +354,9 @@ Result<CalibrationChoice> choose_forwards(const FrameSequence& sequence,
   }
   const SequenceView reduced = workflow::reduced_frames(sequence);
   PlatterMemory memory;  // the platter's position does not depend on which check asks for it
-  if (request.mode == "recorded") return as_recorded(reduced, request, memory, context);
-  if (request.mode == "motion")
-    return from_motion(reduced, request, "--calibration motion was given", memory, context);
-  if (request.mode == "auto") return automatic(reduced, request, memory, context);
-  return fail(ErrorCode::kInvalidOption,
-              "--calibration {}: there is no such way; use auto, recorded or motion", request.mode);
+  TURNSCAN_ASSIGN(CalibrationChoice out, by_mode(reduced, request, memory, context));
+  out.platter = memory.platter;
+  return out;
 }
 
 /// Whether the angles of a recording with a turntable count in the wrong sense.

@@ -8,6 +8,7 @@
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/turntable/checks/axis_offset.hpp>
 #include <turnscan/turntable/checks/closure.hpp>
+#include <turnscan/turntable/detection/detect.hpp>
 #include <turnscan/turntable/placement/find_disturbances.hpp>
 #include <vector>
 
@@ -29,8 +30,9 @@ struct CalibrationChoice {
   std::vector<std::size_t> left_out;  ///< positions of frames that cannot be placed
   bool may_be_mirrored = false;  ///< depth images whose object turns against the recorded angles
   std::string note;              ///< one sentence for the user; empty: nothing to report
-  std::vector<Disturbance> disturbances;  ///< all that were found, corrected or not
-  CalibrationChecks checks;               ///< of the recording's calibration, if it was checked
+  std::vector<Disturbance> disturbances;   ///< all that were found, corrected or not
+  CalibrationChecks checks;                ///< of the recording's calibration, if it was checked
+  std::optional<DetectedPlatter> platter;  ///< that a check saw in frames of the whole recording
 };
 
 struct CalibrationRequest {
