@@ -189,7 +189,7 @@ TEST(Plan, SaysInOneLineWhatIsWrong) {
   EXPECT_TRUE(has(error_of([](PlanRequest& r) { r.objects = {"nowhere.ply"}; }), "nowhere.ply"));
   EXPECT_TRUE(has(error_of([](PlanRequest& r) { r.options.time_budget_s = 1.0; }), "time-budget"));
   EXPECT_TRUE(has(error_of([](PlanRequest& r) {
-                    r.scanners[0].placement = {{"distance", "1m"}};
+                    r.scanners[0].options = {{"distance", "1m"}};
                   }),
                   "distance"));
 }
@@ -213,7 +213,7 @@ TEST(PlanScanners, AreDividedAtNamesWithoutValues) {
   const auto scanners = parse_plan_scanners({"kinect-v2,roll=90deg,realsense-d435", "kinect-v1"});
   ASSERT_TRUE(scanners);
   ASSERT_EQ(scanners->size(), 3u);
-  EXPECT_EQ((*scanners)[0].placement.size(), 1u);
+  EXPECT_EQ((*scanners)[0].options.size(), 1u);
   EXPECT_EQ((*scanners)[1].model, "realsense-d435");
   EXPECT_FALSE(parse_plan_scanners({"kinect-v2,roll=much"}));
 }
