@@ -31,8 +31,8 @@ class StagePanel : public QWidget {
   const ReconstructOptions& options() const { return *options_; }
   /// The first error in the options, or empty.
   QString first_error() const;
-  /// Shows the values that were used for automatic options.
   void set_option(const std::string& stage, const QString& name, const QString& value);
+  /// Shows the values that were used for automatic options.
   void show_used(const std::vector<ResolvedParameter>& choices);
   void show_error(const QString& text);
   void add_error(const QString& text);

@@ -60,6 +60,8 @@ void ScannerEditor::build() {
   for (const std::string& preset : scanner_presets())
     presets->addItem(QString::fromStdString(preset));
   leave_wheel_to_panel(presets);
+  presets->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  presets->setMinimumContentsLength(6);
   auto* save = button(tr("Save as scanner…"),
                       tr("These fields as a file for --scanner and for Add scanner"), scanner);
   row->addWidget(presets, 1);
@@ -68,7 +70,7 @@ void ScannerEditor::build() {
   add_form(describe(setup_->placement), {"distance", "elevation", "azimuth", "pan", "tilt", "roll"},
            place);
   add_form(describe(setup_->parameters),
-           {"near", "far", "columns", "rows", "vertical-fov", "aspect", "fx", "fy", "baseline",
+           {"near", "far", "columns", "rows", "vertical-fov", "fx", "fy", "baseline",
             "baseline-direction", "max-incidence"},
            scanner);
   add_form(describe(setup_->parameters.noise), {}, noise);
@@ -123,8 +125,14 @@ ScannerEditor::Values ScannerEditor::changed_keys() const {
   return differences(describe_all(setup_->parameters), describe_all(before));
 }
 
-ScannerEntry ScannerEditor::entry(ScannerPlacement common) const {
-  ScannerEntry out{name_.toStdString(), differences(describe(setup_->placement), describe(common))};
+ScannerEntry ScannerEditor::entry(std::optional<ScannerPlacement> common) const {
+  ScannerEntry out{name_.toStdString(), {}};
+  if (common) {
+    out.options = differences(describe(setup_->placement), describe(*common));
+  } else {
+    const OptionTable place = describe(setup_->placement);
+    for (const auto& field : place.fields()) out.options.emplace_back(field.name, field.get());
+  }
   const Values keys = changed_keys();
   out.options.insert(out.options.end(), keys.begin(), keys.end());
   return out;

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 #include <memory>
+#include <optional>
 #include <turnscan/simulator/scene_file.hpp>
 
 namespace turnscan::studio {
@@ -24,8 +25,9 @@ class ScannerEditor : public QWidget {
   /// refresh() shows changes.
   ScannerPlacement& placement() { return setup_->placement; }
   void refresh();
-  /// With the values that differ from its preset or file, and from the common place.
-  ScannerEntry entry(ScannerPlacement common) const;
+  /// With the values that differ from its preset or file, and from the common place; its whole
+  /// place if there is none.
+  ScannerEntry entry(std::optional<ScannerPlacement> common) const;
   /// Name of its preset or file, and whether it was changed.
   QString title() const;
 

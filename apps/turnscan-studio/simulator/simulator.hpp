@@ -97,6 +97,7 @@ class SimulatorMode : public Mode {
   void show_coloring(int index);
   void fill_holes();
   void fly_to_hole(int row);
+  bool scanners_are_valid() const;
   void store();
   void restore();
   double aim_height() const;

@@ -280,8 +280,12 @@ void SimulatorMode::build_sweep() {
     SceneDescription scene = this->scene();
     scene.placement = scanners_[std::size_t(row)]->editor->placement();
     scene.scanners.clear();
-    for (const auto& scanner : scanners_)
-      scene.scanners.push_back(scanner->editor->entry(scene.placement));
+    // The swept place is the scene's, so that the others state the whole of theirs.
+    for (const auto& scanner : scanners_) {
+      const bool swept = scanner == scanners_[std::size_t(row)];
+      scene.scanners.push_back(
+          scanner->editor->entry(swept ? std::optional(scene.placement) : std::nullopt));
+    }
     return scene;
   };
   auto* sweep = new SweepPanel(jobs(), swept_scene, *coverage_, section);

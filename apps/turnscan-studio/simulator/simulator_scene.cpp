@@ -30,6 +30,7 @@ const SceneDescription& SimulatorMode::scene() {
 
 /// Makes the current scene an undo step, if it differs from the last one.
 void SimulatorMode::place_changed() {
+  if (!scanners_are_valid()) return;
   const std::string now = scene_toml(scene());
   if (step_ < int(steps_.size()) && steps_[std::size_t(step_)] == now) return;
   steps_.resize(std::min(steps_.size(), std::size_t(step_ + 1)));
@@ -54,9 +55,16 @@ QString SimulatorMode::redo_text() const {
   return step_ + 1 < int(steps_.size()) ? tr("change of the rig") : QString();
 }
 
+/// While a scanner's fields contradict each other, the last that did not are kept.
+bool SimulatorMode::scanners_are_valid() const {
+  return std::all_of(scanners_.begin(), scanners_.end(),
+                     [](const auto& scanner) { return scanner->editor->error().isEmpty(); });
+}
+
 void SimulatorMode::store() {
   QSettings settings;
-  settings.setValue("simulator/scene", QString::fromStdString(scene_toml(scene())));
+  if (scanners_are_valid())
+    settings.setValue("simulator/scene", QString::fromStdString(scene_toml(scene())));
   settings.setValue("simulator/folder", folder_->text());
   for (const auto& [name, form] : forms_)
     if (name == "coverage") form->store("simulator/coverage");
@@ -79,6 +87,7 @@ void SimulatorMode::restore() {
   }
   if (scene.scanners.empty()) scene.scanners.push_back({"kinect-v2", {}});
   apply_scene(std::move(scene));
+  if (scanners_.empty()) (void)add_entry({"kinect-v2", {}});
 }
 
 void SimulatorMode::apply_scene(SceneDescription scene) {
@@ -111,6 +120,9 @@ void SimulatorMode::load_scene(const QString& path) {
 }
 
 void SimulatorMode::save_scene(const QString& path) {
+  for (const auto& scanner : scanners_)
+    if (const QString text = scanner->editor->error(); !text.isEmpty())
+      return error_->show_text(text);
   jobs().start(
       tr("Save scene"), this,
       [this, path, text = scene_toml(scene())](const RunContext&) -> Result<Finish> {

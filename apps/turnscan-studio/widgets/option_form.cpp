@@ -186,6 +186,10 @@ QSlider* OptionForm::make_slider(std::size_t index) {
 void OptionForm::show_on_slider(const Row& row) {
   if (!row.slider || row.slider->isSliderDown()) return;
   const auto value = parse_quantity(row.field->get(), row.field->quantity);
+  // Steps finer than the value's digits would be put back.
+  if (value &&
+      std::abs(value_at(*row.field, row.slider->value()) - *value) <= 1e-9 * std::abs(*value))
+    return;
   const QSignalBlocker quiet(row.slider);
   row.slider->setValue(value ? step_of(*row.field, *value) : 0);
 }

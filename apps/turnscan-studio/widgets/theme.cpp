@@ -49,6 +49,7 @@ QComboBox::down-arrow { image: url(:/studio/icons/arrow.png); width: 12px; heigh
 QComboBox QAbstractItemView { background: %field; border: 1px solid %line; padding: 3px;
   selection-background-color: %accent; selection-color: %accent_text; outline: none; }
 QComboBox QAbstractItemView::item { min-height: 24px; padding: 0 6px; }
+QComboBox QAbstractItemView::item:selected { background: %accent; color: %accent_text; }
 QCheckBox { spacing: 7px; }
 QCheckBox::indicator, QTreeView::indicator { width: 14px; height: 14px; border: 1px solid %edge;
   border-radius: 4px; background: %field; }

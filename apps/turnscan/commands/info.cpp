@@ -55,6 +55,9 @@ class InfoCommand : public Command {
     // A PLY file without triangles is a cloud.
     if (!meshes && meshes.error().code == ErrorCode::kTooFewPoints && ending_of(path_) == ".ply")
       return about_cloud(session);
+    // What nothing reads as a mesh may be known to importers, if only by name.
+    if (!meshes && meshes.error().code == ErrorCode::kUnsupported)
+      return about_recording(path, session);
     if (!meshes) return tl::unexpected<Error>(meshes.error());
     return about_meshes(*meshes, session);
   }
@@ -87,7 +90,8 @@ class InfoCommand : public Command {
     std::vector<MeshReport> reports;
     for (const TriangleMesh& mesh : meshes) {
       TURNSCAN_TRY(session.context().check());
-      reports.push_back(check_surface(mesh));
+      reports.push_back(check_surface(mesh, session.context()));
+      TURNSCAN_TRY(session.context().check());
       if (!json_) print_mesh(mesh, reports.back(), meshes.size(), session);
     }
     if (json_) session.print("{}\n", meshes_json(meshes, reports));

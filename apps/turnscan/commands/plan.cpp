@@ -20,7 +20,8 @@ class PlanCommand : public Command {
         "--scanner", "SCANNER,...", scanners_,
         fmt::format(
             "Available sensors: presets ({}) or files FILE.toml; the rig may have several of each. "
-            "Fixed parts of its placement follow after commas: kinect-v2,roll=90deg",
+            "Fixed parts of its placement and "
+            "keys of its file follow after commas: kinect-v2,roll=90deg",
             fmt::join(scanner_presets(), ", ")));
     line.required_option("-o,--out", "FOLDER", request_.folder,
                          "Folder for the plans, created if necessary; plans of an earlier run in "

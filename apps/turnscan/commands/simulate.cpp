@@ -33,8 +33,9 @@ class SimulateCommand : public Command {
     line.repeatable(
         "--scanner", "SCANNER", scanners_,
         fmt::format(
-            "A preset ({}) or a file FILE.toml; may be given several times. Options of its own "
-            "placement follow after commas: kinect-v2,azimuth=90deg (default: kinect-v2)",
+            "A preset ({}) or a file FILE.toml; may be given several times. Its own place and "
+            "keys of its file follow after commas: kinect-v2,azimuth=90deg,far=2m (default: "
+            "kinect-v2)",
             fmt::join(scanner_presets(), ", ")));
     line.repeatable("--next-pass", "NAME=VALUE,...", next_passes_,
                     "Add a pass to the recording: how the object lies in it, by the options of the "

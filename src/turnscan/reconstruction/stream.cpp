@@ -104,7 +104,8 @@ class ReconstructionStream::Impl {
     TURNSCAN_TRY(finishing::finish_objects(options_.finish, out_, context));
     TURNSCAN_TRY(finishing::reduce_triangles(options_, out_, context));
     for (ObjectResult& object : out_.objects)
-      object.check.crossing_edges = self_intersections(object.mesh).edges;
+      object.check.crossing_edges = self_intersections(object.mesh, {}, context).edges;
+    TURNSCAN_TRY(context.check());
     return std::move(out_);
   }
 

@@ -102,6 +102,9 @@ CloudCubes::CloudCubes(const PointCloud& cloud) : cloud_(cloud), colors_(cloud.c
     for (const float w : cloud.weights) colors_.push_back(viridis(w > 0.0f ? w / brightest_ : 0.0));
 }
 
+CloudCubes::CloudCubes(const PointCloud& cloud, std::vector<Eigen::Vector3i> cells, float half_m)
+    : cloud_(cloud), cells_(std::move(cells)), half_(half_m), colors_(cloud.colors) {}
+
 Result<TriangleMesh> CloudCubes::mesh(double min_weight) const {
   std::vector<std::uint32_t> shown;
   for (std::uint32_t i = 0; i < cloud_.size(); ++i)
@@ -133,6 +136,7 @@ Result<TriangleMesh> CloudCubes::mesh(double min_weight) const {
 
 TriangleMesh CloudCubes::coarser(double min_weight) const {
   PointCloud coarse;
+  std::vector<Cell> coarse_cells;
   std::unordered_map<std::uint64_t, std::size_t> index;
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const float weight = cloud_.weights.empty() ? 1.0f : cloud_.weights[i];
@@ -141,6 +145,7 @@ TriangleMesh CloudCubes::coarser(double min_weight) const {
     const Cell odd(cell.x() & 1, cell.y() & 1, cell.z() & 1);
     const auto [at, added] = index.try_emplace(key_of((cell - odd) / 2), coarse.size());
     if (added) {
+      coarse_cells.push_back((cell - odd) / 2);
       coarse.points.push_back(cloud_.points[i] +
                               half_ * (Vec3f::Ones() - 2.0f * odd.cast<float>()));
       coarse.weights.push_back(weight);
@@ -150,7 +155,10 @@ TriangleMesh CloudCubes::coarser(double min_weight) const {
       if (!colors_.empty()) coarse.colors[at->second] = colors_[i];
     }
   }
-  return CloudCubes(coarse).mesh(0.0).value_or(TriangleMesh());
+  if (coarse.empty()) return {};
+  return CloudCubes(coarse, std::move(coarse_cells), 2.0f * half_)
+      .mesh(0.0)
+      .value_or(TriangleMesh());
 }
 
 Result<TriangleMesh> cubes_of(const PointCloud& cloud, double min_weight,

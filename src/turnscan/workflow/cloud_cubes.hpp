@@ -29,6 +29,9 @@ class CloudCubes {
   TriangleMesh coarser(double min_weight) const;
 
  private:
+  /// Of points in the middles of cells of this half edge.
+  CloudCubes(const PointCloud& cloud, std::vector<Eigen::Vector3i> cells, float half_m);
+
   const PointCloud& cloud_;
   std::vector<Eigen::Vector3i> cells_;  ///< of the points; empty if they do not lie on a grid
   float half_ = 0.0f;                   ///< of a cube's edge

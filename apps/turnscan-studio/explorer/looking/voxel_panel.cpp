@@ -11,6 +11,7 @@
 #include <turnscan/evaluation/colormap.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/workflow/cloud_cubes.hpp>
+#include <utility>
 
 #include "app/jobs.hpp"
 #include "widgets/no_wheel.hpp"
@@ -24,10 +25,15 @@ namespace {
 
 constexpr int kSteps = 1000;
 
+/// Empty if the weights of a cloud are no counts, such as qualities from 0 to 1.
 std::vector<float> ascending_counts(const ModelData& data) {
   if (data.kind != ModelKind::kCloud) return {};
-  std::vector<float> out = data.cloud.weights;
+  constexpr float kMost = 1e9f;
+  std::vector<float> out;
+  for (const float weight : data.cloud.weights)
+    if (weight > 0.0f && weight <= kMost) out.push_back(weight);
   std::sort(out.begin(), out.end());
+  if (out.empty() || out.back() < 2.0f) return {};
   return out;
 }
 
@@ -112,6 +118,8 @@ void VoxelPanel::show_model(int id) {
   use_->setEnabled(data()->source.startsWith("voxels "));
   show_kept();
   if (!known && made_by_voxels(*data())) on_->setChecked(true);
+  // Its job may have waited for one of another model that was shown then.
+  if (known && cubes.on && !cubes.drawable) rebuild();
 }
 
 void VoxelPanel::set_on(bool on) {

@@ -1,5 +1,6 @@
 #include "explorer/output/stage_sheet.hpp"
 
+#include <QAbstractButton>
 #include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QLabel>
@@ -76,6 +77,7 @@ SheetDialog::SheetDialog(const QImage& sheet, QWidget* parent) : QDialog(parent)
   const int widest = std::min(sheet.width(), parent->window()->width() - 80);
   picture->setPixmap(QPixmap::fromImage(sheet.scaledToWidth(widest, Qt::SmoothTransformation)));
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Save | QDialogButtonBox::Close, this);
+  for (QAbstractButton* each : buttons->buttons()) each->setIcon({});
   layout->addWidget(picture);
   layout->addWidget(buttons);
   connect(buttons, &QDialogButtonBox::accepted, this, [this] {

@@ -156,9 +156,9 @@ class MeshChecker {
 
 MeshReport check_mesh(const TriangleMesh& mesh) { return MeshChecker(mesh).run(); }
 
-MeshReport check_surface(const TriangleMesh& mesh) {
+MeshReport check_surface(const TriangleMesh& mesh, const RunContext& context) {
   MeshReport report = check_mesh(mesh);
-  report.crossing_edges = self_intersections(mesh).edges;
+  report.crossing_edges = self_intersections(mesh, {}, context).edges;
   return report;
 }
 

@@ -1,12 +1,19 @@
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/self_intersections.hpp>
 #include <turnscan/geometry/search/closest_point.hpp>
+#include <utility>
 
 namespace turnscan {
 
 namespace {
+
+/// Triangles near another that are asked: a mesh that is not made to hurt has some 30.
+constexpr std::size_t kMostNear = 1000;
+constexpr std::uint8_t kPierced = 8;  ///< of the flags; the bits below are of the triangle's edges
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -19,52 +26,51 @@ double spanned(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 
 class SelfIntersectionSearch {
  public:
-  SelfIntersectionSearch(const TriangleMesh& mesh, std::span<const std::uint8_t> moved)
-      : mesh_(mesh), moved_(moved), tree_(mesh) {}
+  SelfIntersectionSearch(const TriangleMesh& mesh, std::span<const std::uint8_t> moved,
+                         const RunContext& context)
+      : mesh_(mesh), moved_(moved), context_(context), tree_(mesh) {}
 
-  SelfIntersections run() const {
-    SelfIntersections out{0, std::vector<std::uint8_t>(mesh_.triangles.size(), 0)};
-    const auto chunks = parallel_chunks<std::vector<Crossing>>(
-        mesh_.triangles.size(), 1024,
-        [&](std::size_t begin, std::size_t end) { return crossings_of(begin, end); });
+  SelfIntersections run() {
+    SelfIntersections out;
+    out.triangles.assign(mesh_.triangles.size(), 0);
+    parallel_chunks<char>(mesh_.triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
+      if (context_.check()) ask(begin, end, out.triangles);
+      return char();
+    });
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-    for (const auto& chunk : chunks)
-      for (const Crossing& found : chunk) {
-        edges.push_back(std::minmax(found.a, found.b));
-        out.triangles[found.by] = out.triangles[found.through] = 1;
-      }
+    for (std::size_t t = 0; t < out.triangles.size(); ++t) {
+      const Triangle& corners = mesh_.triangles[t];
+      for (std::size_t c = 0; c < 3; ++c)
+        if (out.triangles[t] & (1 << c))
+          edges.push_back(std::minmax(corners[c], corners[(c + 1) % 3]));
+      out.triangles[t] = out.triangles[t] != 0 ? 1 : 0;
+    }
     std::sort(edges.begin(), edges.end());
     out.edges = std::size_t(std::unique(edges.begin(), edges.end()) - edges.begin());
     return out;
   }
 
  private:
-  struct Crossing {
-    std::uint32_t by, through;  ///< triangles
-    std::uint32_t a, b;         ///< the edge of the first that passes through the second
-  };
-
   Vec3d at(std::uint32_t v) const { return mesh_.vertices[v].cast<double>(); }
+  bool moved(std::size_t t) const { return moved_.empty() || moved_[t] != 0; }
 
-  std::vector<Crossing> crossings_of(std::size_t begin, std::size_t end) const {
-    std::vector<Crossing> out;
+  void ask(std::size_t begin, std::size_t end, std::vector<std::uint8_t>& flags) const {
     std::vector<std::uint32_t> near;
     for (std::size_t t = begin; t < end; ++t) {
-      const Triangle& own = mesh_.triangles[t];
       if (!moved(t)) continue;
+      const Triangle& own = mesh_.triangles[t];
       if (std::max({own[0], own[1], own[2]}) >= mesh_.vertices.size()) continue;
       const Vec3f &p = mesh_.vertices[own[0]], &q = mesh_.vertices[own[1]],
                   &r = mesh_.vertices[own[2]];
       near.clear();
-      tree_.append_near(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r), near);
+      tree_.append_near(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r), kMostNear, near);
       for (const std::uint32_t other : near) {
         if (other == t || (other < t && moved(other)) || !straddles(mesh_.triangles[other], own))
           continue;
-        add_crossings(std::uint32_t(t), other, out);
-        add_crossings(other, std::uint32_t(t), out);
+        mark(std::uint32_t(t), other, flags);
+        mark(other, std::uint32_t(t), flags);
       }
     }
-    return out;
   }
 
   /// Whether a triangle has corners on both sides of another's plane; only then can they pass
@@ -80,8 +86,8 @@ class SelfIntersectionSearch {
     return low < 0.0 && high > 0.0;
   }
 
-  /// The edges of one triangle that pass through another, or its border.
-  void add_crossings(std::uint32_t by, std::uint32_t through, std::vector<Crossing>& out) const {
+  /// Marks the edges of one triangle that pass through another, or its border, and the other.
+  void mark(std::uint32_t by, std::uint32_t through, std::vector<std::uint8_t>& flags) const {
     const Triangle &own = mesh_.triangles[by], &other = mesh_.triangles[through];
     std::array<bool, 3> shared{};
     for (std::size_t c = 0; c < 3; ++c)
@@ -96,23 +102,24 @@ class SelfIntersectionSearch {
       const Vec3d p = at(own[c]), along = at(own[next]) - p;
       const double u = spanned(along, x - p, y - p), v = spanned(along, y - p, z - p),
                    w = spanned(along, z - p, x - p);
-      if ((u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0))
-        out.push_back({by, through, own[c], own[next]});
+      if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) continue;
+      // Pairs of other threads may mark the same triangle.
+      std::atomic_ref(flags[by]).fetch_or(std::uint8_t(1 << c), std::memory_order_relaxed);
+      std::atomic_ref(flags[through]).fetch_or(kPierced, std::memory_order_relaxed);
     }
   }
 
-  bool moved(std::size_t t) const { return moved_.empty() || moved_[t] != 0; }
-
   const TriangleMesh& mesh_;
   std::span<const std::uint8_t> moved_;
+  const RunContext& context_;
   MeshDistance tree_;
 };
 
 }  // namespace
 
-SelfIntersections self_intersections(const TriangleMesh& mesh,
-                                     std::span<const std::uint8_t> moved) {
-  return SelfIntersectionSearch(mesh, moved).run();
+SelfIntersections self_intersections(const TriangleMesh& mesh, std::span<const std::uint8_t> moved,
+                                     const RunContext& context) {
+  return SelfIntersectionSearch(mesh, moved, context).run();
 }
 
 }  // namespace turnscan

@@ -234,13 +234,13 @@ MeshDistance::Hit MeshDistance::closest(const Vec3d& p, double max_distance) con
   return best;
 }
 
-void MeshDistance::append_near(const Vec3f& low, const Vec3f& high,
+void MeshDistance::append_near(const Vec3f& low, const Vec3f& high, std::size_t most,
                                std::vector<std::uint32_t>& out) const {
   if (impl_->nodes.empty()) return;
   std::uint32_t stack[64];  // as in query()
   int depth = 0;
   stack[depth++] = 0;
-  while (depth > 0) {
+  while (depth > 0 && out.size() < most) {
     const Node& node = impl_->nodes[stack[--depth]];
     for (int side = 0; side < 2; ++side) {
       if (!node.box[side].meets(low, high)) continue;

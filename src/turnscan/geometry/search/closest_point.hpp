@@ -37,8 +37,10 @@ class MeshDistance {
   /// mesh or a p that is not finite: triangle == kNone.
   Hit closest(const Vec3d& p, double max_distance = std::numeric_limits<double>::infinity()) const;
 
-  /// Appends the triangles that may reach into a box: all that do, and some beside it.
-  void append_near(const Vec3f& low, const Vec3f& high, std::vector<std::uint32_t>& out) const;
+  /// Appends the triangles that may reach into a box, all that do and some beside it, until there
+  /// are `most`.
+  void append_near(const Vec3f& low, const Vec3f& high, std::size_t most,
+                   std::vector<std::uint32_t>& out) const;
 
  private:
   struct Impl;

@@ -13,10 +13,12 @@ namespace turnscan::image {
 
 namespace {
 
-/// Those that lose nothing.
+/// Those that lose nothing, or no more than a 65,000th (PXR24).
 constexpr std::array<exr_compression_t, 6> kExrCodecs{EXR_COMPRESSION_NONE, EXR_COMPRESSION_RLE,
                                                       EXR_COMPRESSION_ZIPS, EXR_COMPRESSION_ZIP,
                                                       EXR_COMPRESSION_PIZ,  EXR_COMPRESSION_PXR24};
+/// Bytes of an image for each of its file: far above what the codecs reach on an empty one.
+constexpr std::size_t kMostPackedExr = 16384;
 
 std::int64_t read_exr_bytes(exr_const_context_t, void* user, void* to, std::uint64_t size,
                             std::uint64_t offset, exr_stream_error_func_ptr_t) {
@@ -163,6 +165,9 @@ Result<FileNumbers> decode_exr_numbers(std::string_view bytes) {
   std::int32_t step = 0;
   exr_get_scanlines_per_chunk(reader.context, 0, &step);
   const std::size_t row_bytes = 4 * std::size_t(out.header.columns);
+  if (row_bytes * out.header.rows > kMostPackedExr * bytes.size())
+    return fail(ErrorCode::kFormat, "damaged EXR image: {} bytes cannot hold {} x {} values",
+                bytes.size(), out.header.columns, out.header.rows);
   out.values.resize(row_bytes * out.header.rows);
   for (std::uint32_t row = 0; row < out.header.rows; row += std::uint32_t(std::max(step, 1)))
     if (read_rows(reader, *channel, int(top + row), out.header,

@@ -32,7 +32,8 @@ Result<FileNumbers> decode_tiff_numbers(std::string_view bytes);
 
 /// The first image of the file: its only channel, or the one that is named as depth (Z, or depth
 /// in any layer), of floats, halves (floats here) or whole numbers, in rows, not packed or by a
-/// codec that loses nothing. Fails as decode_tiff_numbers does.
+/// codec that loses nothing or, of floats, no more than a 65,000th (PXR24). Fails as
+/// decode_tiff_numbers does.
 Result<FileNumbers> decode_exr_numbers(std::string_view bytes);
 
 }  // namespace turnscan::image

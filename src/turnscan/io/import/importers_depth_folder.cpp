@@ -219,7 +219,7 @@ OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& option
   header.source = fmt::format("depth images of {}", display_name(folder));
   SensorInfo sensor;
   DepthFileOptions files{1.0, true};
-  if (depth.names.front().ends_with(".raw")) {
+  if (ends_with_any_case(depth.names.front(), ".raw")) {
     TURNSCAN_ASSIGN(sensor.intrinsics, snapshot_camera(depth.images / depth.names.front()));
     files.bare_rows = std::uint32_t(sensor.intrinsics.height);
     files.bare_columns = std::uint32_t(sensor.intrinsics.width);

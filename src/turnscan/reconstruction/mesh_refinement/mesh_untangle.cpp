@@ -81,9 +81,12 @@ Result<> smooth_crossings(TriangleMesh& mesh, std::span<const float> moved,
   std::vector<std::uint8_t> crossing = crossing_vertices(mesh, {}, moved);
   if (!any_marked(crossing)) return {};
   const MeshNeighbours neighbours(mesh);
+  const std::vector<Vec3f> start = mesh.vertices;
   for (int rings = 2; rings <= kMostSmoothedRings && any_marked(crossing); ++rings) {
     TURNSCAN_TRY(context.check());
-    const std::vector<float> share = fading_around(neighbours, crossing, rings);
+    std::vector<float> share = fading_around(neighbours, crossing, rings);
+    for (std::size_t v = 0; v < share.size(); ++v)
+      if (!(moved[v] > 0.0f)) share[v] = 0.0f;
     for (int round = 0; round < rings; ++round) {
       std::vector<Vec3f> next = mesh.vertices;
       for (std::size_t v = 0; v < share.size(); ++v)
@@ -92,8 +95,9 @@ Result<> smooth_crossings(TriangleMesh& mesh, std::span<const float> moved,
               0.5f * share[v] * (neighbours.mean(mesh.vertices, v, Vec3f(Vec3f::Zero())) - next[v]);
       mesh.vertices.swap(next);
     }
-    crossing = crossing_vertices(mesh, {}, share);
+    crossing = crossing_vertices(mesh, {}, moved);
   }
+  if (any_marked(crossing)) mesh.vertices = start;
   return {};
 }
 

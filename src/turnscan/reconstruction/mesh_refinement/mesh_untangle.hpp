@@ -37,7 +37,8 @@ Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, const Run
 
 /// Averages the vertices of triangles with self_intersections(), and to a lesser degree those of up
 /// to 24 rings around them, with their neighbours until there are none: where no start is known
-/// that had none. moved: as for crossing_vertices(). It may leave some. Fails with kCancelled.
+/// that had none, and only vertices of which moved is greater than 0. If some remain, nothing
+/// moves. Fails with kCancelled.
 Result<> smooth_crossings(TriangleMesh& mesh, std::span<const float> moved,
                           const RunContext& context);
 

@@ -193,14 +193,15 @@ std::string dimensions_section(const PageInput& input) {
                   HtmlTable::Layout::kStacked);
   for (std::size_t i = 0; i < input.objects.size(); ++i) {
     const TriangleMesh& mesh = input.objects[i].mesh;
-    const MeshReport check = check_mesh(mesh);
+    const MeshReport check = check_surface(mesh);
     const Vec3d size = bounds(mesh.vertices).size() * 1e3;
-    table.add(name_of(input, i),
-              {fmt::format("{:.1f} x {:.1f} x {:.1f} mm", size.x(), size.y(), size.z()),
-               fmt::format("{:.1f} cm2", check.area_m2 * 1e4),
-               check.closed ? fmt::format("{:.1f} cm3", check.volume_m3 * 1e6) : "not closed",
-               fmt::format("{}", mesh.triangles.size()),
-               check.watertight() ? "closed and consistent" : check.text()});
+    table.add(
+        name_of(input, i),
+        {fmt::format("{:.1f} x {:.1f} x {:.1f} mm", size.x(), size.y(), size.z()),
+         fmt::format("{:.1f} cm2", check.area_m2 * 1e4),
+         check.closed ? fmt::format("{:.1f} cm3", check.volume_m3 * 1e6) : "not closed",
+         fmt::format("{}", mesh.triangles.size()),
+         check.watertight() && check.crossing_edges == 0 ? "closed and consistent" : check.text()});
   }
   return section("dimensions", "Dimensions", table.text());
 }
