@@ -55,9 +55,6 @@ class InfoCommand : public Command {
     // A PLY file without triangles is a cloud.
     if (!meshes && meshes.error().code == ErrorCode::kTooFewPoints && ending_of(path_) == ".ply")
       return about_cloud(session);
-    // What nothing reads as a mesh may be known to importers, if only by name.
-    if (!meshes && meshes.error().code == ErrorCode::kUnsupported)
-      return about_recording(path, session);
     if (!meshes) return tl::unexpected<Error>(meshes.error());
     return about_meshes(*meshes, session);
   }

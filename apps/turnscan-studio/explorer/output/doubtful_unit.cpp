@@ -4,6 +4,7 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <algorithm>
+#include <turnscan/recording/plausibility/plausibility.hpp>
 
 #include "explorer/output/export_model.hpp"
 
@@ -11,7 +12,6 @@ namespace turnscan::studio {
 
 namespace {
 
-constexpr double kSmallest_m = 0.004, kLargest_m = 2.5;
 constexpr double kUsualSmallest_m = 0.02, kUsualLargest_m = 1.0;
 
 QString name_of_unit(double metres) {
@@ -32,7 +32,7 @@ std::optional<DoubtfulUnit> doubtful_unit(const QString& path, const NamedModels
     box.add(box_of(*data->drawable).max);
   }
   const double size = box.size().maxCoeff();
-  if (box.empty() || !(size > 0.0) || (size >= kSmallest_m && size <= kLargest_m))
+  if (box.empty() || !(size > 0.0) || (size >= kSmallestObject_m && size <= kLargestObject_m))
     return std::nullopt;
   DoubtfulUnit doubt{QFileInfo(path).fileName(), size, unit_of_format(ending), 1.0};
   // A size that is usual on a turntable, or else the nearest to it.

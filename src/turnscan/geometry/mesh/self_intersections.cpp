@@ -13,6 +13,7 @@ namespace {
 
 /// Triangles near another that are asked: a mesh that is not made to hurt has some 30.
 constexpr std::size_t kMostNear = 1000;
+constexpr std::size_t kChunk = 1024;  // triangles between two looks at the context
 constexpr std::uint8_t kPierced = 8;  ///< of the flags; the bits below are of the triangle's edges
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -33,9 +34,9 @@ class SelfIntersectionSearch {
   SelfIntersections run() {
     SelfIntersections out;
     out.triangles.assign(mesh_.triangles.size(), 0);
-    parallel_chunks<char>(mesh_.triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
-      if (context_.check()) ask(begin, end, out.triangles);
-      return char();
+    const std::size_t n = mesh_.triangles.size();
+    (void)parallel_for((n + kChunk - 1) / kChunk, 1, context_, [&](std::size_t c) {
+      ask(c * kChunk, std::min(n, (c + 1) * kChunk), out.triangles);
     });
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
     for (std::size_t t = 0; t < out.triangles.size(); ++t) {

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <turnscan/core/units.hpp>
 #include <turnscan/io/file/existence.hpp>
+#include <turnscan/io/file/file_name.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/import/importers_capture.hpp>
 #include <turnscan/io/import/importers_common.hpp>
@@ -28,8 +28,8 @@ namespace {
 constexpr double kOffMiddle = 0.25;
 constexpr double kSameShape = 0.1;
 /// The most exact first.
-constexpr std::array<const char*, 7> kDepthEndings{".npy", ".exr", ".tiff", ".tif",
-                                                   ".raw", ".pgm", ".png"};
+constexpr std::array<const char*, 7> kDepthEndings{"npy", "exr", "tiff", "tif",
+                                                   "raw", "pgm", "png"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -56,23 +56,17 @@ bool precedes(std::string_view a, std::string_view b) {
   return a.size() < b.size();
 }
 
-/// Windows programs write .PNG, too.
-bool ends_with_any_case(std::string_view name, std::string_view ending) {
-  return name.size() >= ending.size() &&
-         std::equal(
-             ending.begin(), ending.end(), name.end() - std::ptrdiff_t(ending.size()),
-             [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
-}
-
 /// Of arrays beside their pictures, or depth beside a few other files, the most frequent kind.
 void keep_one_kind(std::vector<std::string>& names) {
   const auto count = [&](const char* ending) {
-    return std::count_if(names.begin(), names.end(),
-                         [&](const std::string& name) { return ends_with_any_case(name, ending); });
+    return std::count_if(names.begin(), names.end(), [&](const std::string& name) {
+      return file::lower_extension(name) == ending;
+    });
   };
   const auto kind = std::max_element(kDepthEndings.begin(), kDepthEndings.end(),
                                      [&](auto a, auto b) { return count(a) < count(b); });
-  std::erase_if(names, [&](const std::string& name) { return !ends_with_any_case(name, *kind); });
+  std::erase_if(names,
+                [&](const std::string& name) { return file::lower_extension(name) != *kind; });
 }
 
 struct DepthFolder {
@@ -210,7 +204,7 @@ void note_depth_files(const DepthFile& first, const DepthFileOptions& files,
 
 bool is_depth_name(std::string_view name) {
   return std::any_of(kDepthEndings.begin(), kDepthEndings.end(),
-                     [&](const char* ending) { return ends_with_any_case(name, ending); });
+                     [&](const char* ending) { return file::lower_extension(name) == ending; });
 }
 
 OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& options) {
@@ -219,7 +213,7 @@ OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& option
   header.source = fmt::format("depth images of {}", display_name(folder));
   SensorInfo sensor;
   DepthFileOptions files{1.0, true};
-  if (ends_with_any_case(depth.names.front(), ".raw")) {
+  if (file::lower_extension(depth.names.front()) == "raw") {
     TURNSCAN_ASSIGN(sensor.intrinsics, snapshot_camera(depth.images / depth.names.front()));
     files.bare_rows = std::uint32_t(sensor.intrinsics.height);
     files.bare_columns = std::uint32_t(sensor.intrinsics.width);

@@ -19,21 +19,10 @@ bool any_marked(const std::vector<std::uint8_t>& marks) {
   return std::find(marks.begin(), marks.end(), 1) != marks.end();
 }
 
-std::vector<std::uint8_t> triangles_at(const TriangleMesh& mesh, std::span<const float> values) {
-  std::vector<std::uint8_t> out(values.empty() ? 0 : mesh.triangles.size());
-  for (std::size_t t = 0; t < out.size(); ++t) {
-    const auto& corners = mesh.triangles[t];
-    out[t] = std::any_of(corners.begin(), corners.end(),
-                         [&](std::uint32_t v) { return values[v] > 0.0f; });
-  }
-  return out;
-}
-
 std::vector<std::uint8_t> crossing_vertices(const TriangleMesh& mesh,
                                             const std::vector<std::uint8_t>& before,
-                                            std::span<const float> moved) {
-  const std::vector<std::uint8_t> faults =
-      self_intersections(mesh, triangles_at(mesh, moved)).triangles;
+                                            std::span<const std::uint8_t> moved) {
+  const std::vector<std::uint8_t> faults = self_intersections(mesh, moved).triangles;
   std::vector<std::uint8_t> out(mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < faults.size(); ++t)
     if (faults[t] && (before.empty() || !before[t]))
@@ -69,28 +58,27 @@ Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, const Run
         neighbours, crossing, small ? kSmallStepRings : kWholeWayRings[n - kSmallSteps]);
     for (std::size_t v = 0; v < share.size(); ++v)
       mesh.vertices[v] += step * share[v] * (start[v] - mesh.vertices[v]);
-    crossing = crossing_vertices(mesh, before, share);
+    crossing = crossing_vertices(mesh, before, triangles_at(mesh, share));
     if (!any_marked(crossing)) return {};
   }
   mesh.vertices = start;
   return {};
 }
 
-Result<> smooth_crossings(TriangleMesh& mesh, std::span<const float> moved,
+Result<> smooth_crossings(TriangleMesh& mesh, const std::vector<std::uint8_t>& loose,
                           const RunContext& context) {
+  const std::vector<std::uint8_t> moved = triangles_at(mesh, loose);
   std::vector<std::uint8_t> crossing = crossing_vertices(mesh, {}, moved);
   if (!any_marked(crossing)) return {};
   const MeshNeighbours neighbours(mesh);
   const std::vector<Vec3f> start = mesh.vertices;
   for (int rings = 2; rings <= kMostSmoothedRings && any_marked(crossing); ++rings) {
     TURNSCAN_TRY(context.check());
-    std::vector<float> share = fading_around(neighbours, crossing, rings);
-    for (std::size_t v = 0; v < share.size(); ++v)
-      if (!(moved[v] > 0.0f)) share[v] = 0.0f;
+    const std::vector<float> share = fading_around(neighbours, crossing, rings);
     for (int round = 0; round < rings; ++round) {
       std::vector<Vec3f> next = mesh.vertices;
       for (std::size_t v = 0; v < share.size(); ++v)
-        if (share[v] > 0.0f)
+        if (loose[v] && share[v] > 0.0f)
           next[v] +=
               0.5f * share[v] * (neighbours.mean(mesh.vertices, v, Vec3f(Vec3f::Zero())) - next[v]);
       mesh.vertices.swap(next);

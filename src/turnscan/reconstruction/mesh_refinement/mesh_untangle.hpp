@@ -13,15 +13,21 @@ namespace turnscan::mesh_refinement {
 /// Whether any flag is set.
 bool any_marked(const std::vector<std::uint8_t>& marks);
 
-/// One flag per triangle: whether a corner has a value greater than 0. None if there are no values.
-std::vector<std::uint8_t> triangles_at(const TriangleMesh& mesh, std::span<const float> values);
+/// One flag per triangle: whether a corner has a value greater than 0.
+template <class T>
+std::vector<std::uint8_t> triangles_at(const TriangleMesh& mesh, const std::vector<T>& values) {
+  std::vector<std::uint8_t> out;
+  out.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+    out.push_back(values[a] > T(0) || values[b] > T(0) || values[c] > T(0) ? 1 : 0);
+  return out;
+}
 
 /// One flag per vertex: those of triangles with self_intersections(), except triangles that had
-/// some before (empty: none had). moved: if not empty, greater than 0 for the vertices since whose
-/// motion pairs of triangles may cross that did not.
+/// some before (empty: none had). moved: as for self_intersections().
 std::vector<std::uint8_t> crossing_vertices(const TriangleMesh& mesh,
                                             const std::vector<std::uint8_t>& before,
-                                            std::span<const float> moved = {});
+                                            std::span<const std::uint8_t> moved = {});
 
 /// Per vertex: 1 if marked, less by 1 / rings with each ring of neighbours, down to 0.
 std::vector<float> fading_around(const MeshNeighbours& neighbours,
@@ -35,11 +41,10 @@ std::vector<float> fading_around(const MeshNeighbours& neighbours,
 /// all vertices do. Fails with kCancelled.
 Result<> untangle(TriangleMesh& mesh, const std::vector<Vec3f>& start, const RunContext& context);
 
-/// Averages the vertices of triangles with self_intersections(), and to a lesser degree those of up
-/// to 24 rings around them, with their neighbours until there are none: where no start is known
-/// that had none, and only vertices of which moved is greater than 0. If some remain, nothing
-/// moves. Fails with kCancelled.
-Result<> smooth_crossings(TriangleMesh& mesh, std::span<const float> moved,
+/// Averages the loose vertices (one flag each) of triangles with self_intersections(), and to a
+/// lesser degree those of up to 24 rings around them, with their neighbours until there are none:
+/// where no start is known that had none. If some remain, nothing moves. Fails with kCancelled.
+Result<> smooth_crossings(TriangleMesh& mesh, const std::vector<std::uint8_t>& loose,
                           const RunContext& context);
 
 }  // namespace turnscan::mesh_refinement

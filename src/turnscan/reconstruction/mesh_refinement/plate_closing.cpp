@@ -44,8 +44,7 @@ class PlateCloser {
   Result<> run() {
     if (!any_marked(loose_)) return {};
     const std::vector<Vec3f> start = mesh_.vertices;
-    moves_.assign(loose_.begin(), loose_.end());
-    const Marks before = self_intersections(mesh_, triangles_at(mesh_, moves_)).triangles;
+    const Marks before = self_intersections(mesh_, triangles_at(mesh_, loose_)).triangles;
     TURNSCAN_TRY(bend(start));
     for (int n = 0; n < kMaxRests && rest_on_platter(); ++n) TURNSCAN_TRY(bend(start));
     even_contacts();
@@ -59,7 +58,7 @@ class PlateCloser {
       TURNSCAN_TRY(context_.check());
       if (crosses) crosses = draw_back(start, share, before);
     }
-    TURNSCAN_TRY(smooth_crossings(mesh_, moves_, context_));
+    TURNSCAN_TRY(smooth_crossings(mesh_, loose_, context_));
     mesh_.normals.clear();
     return {};
   }
@@ -199,7 +198,9 @@ class PlateCloser {
     }
   }
 
-  Marks crossing(const Marks& before) const { return crossing_vertices(mesh_, before, moves_); }
+  Marks crossing(const Marks& before) const {
+    return crossing_vertices(mesh_, before, triangles_at(mesh_, loose_));
+  }
 
   /// Moves vertices that cross surface back to their start, and those in this many rings around
   /// them less, decreasing with distance. Returns whether there were any.
@@ -225,10 +226,9 @@ class PlateCloser {
   const PlateClosing& closing_;
   const RunContext& context_;
   MeshNeighbours neighbours_;
-  Marks loose_;               ///< may move
-  std::vector<float> hold_;   ///< stiffness of its attachment to its start position; 0 = none
-  std::vector<float> moves_;  ///< 1 for the loose ones of the start
-  Marks contact_;             ///< fixed at the border of observed space
+  Marks loose_;              ///< may move
+  std::vector<float> hold_;  ///< stiffness of its attachment to its start position; 0 = none
+  Marks contact_;            ///< fixed at the border of observed space
   std::vector<std::uint32_t> rests_;  ///< placed on the platter
 };
 

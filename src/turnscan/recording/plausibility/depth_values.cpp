@@ -20,8 +20,6 @@ constexpr std::array<std::pair<double, const char*>, 5> kPointUnits{
 /// nearest to 2.5 of the farthest, and the D435's smallest images begin at half of it.
 constexpr double kNearer = 0.8, kFarther = 2.5, kNearest = 0.4;
 constexpr double kNearTenth = 0.1;
-/// What stands on a turntable, at its widest; the window asks for a mesh's unit beyond the same.
-constexpr double kSmallestObject_m = 0.004, kLargestObject_m = 2.5;
 constexpr std::size_t kPixelStep = 7;
 
 struct DepthRange {

@@ -19,6 +19,9 @@ struct PlausibilityFinding {
   std::string option;  ///< of turnscan import, which settles it; empty: none does
 };
 
+/// What stands on a turntable, at its widest: a file that is smaller or larger is in another unit.
+inline constexpr double kSmallestObject_m = 0.004, kLargestObject_m = 2.5;
+
 /// Looks at headers, times, angles and at most 40 frames of each sensor. Frames that cannot be read
 /// are passed over. Fails only with kCancelled.
 Result<std::vector<PlausibilityFinding>> find_implausible(const FrameSequence& sequence,
