@@ -546,7 +546,8 @@ class Turntable(harness.TestCase):
         process = start(*args, cwd=self.dir)
         while not (table := self.dir / "r" / "frames.csv").exists() or (
                 table.read_bytes().count(b"\n") <= frames):
-            self.assertIsNone(process.poll(), process.stderr)
+            ended = process.poll()
+            self.assertIsNone(ended, ended is not None and process.stderr.read())
             time.sleep(0.002)
         process.send_signal(signal_number)
         process.communicate(timeout=30)
