@@ -283,7 +283,7 @@ TEST(ReconstructionStream, WhatTouchedThePlatterInOnePassIsMeasuredInAnother) {
     const auto alone = streamed(ball(64), with(method), 64);
     ASSERT_TRUE(alone) << alone.error().message;
     const double bottom = kCenter.y() - kBallRadius;
-    EXPECT_GT(bounds(alone->objects.at(0).mesh.vertices).min.y(), bottom + 0.002);
+    EXPECT_GT(bounds(alone->objects.at(0).mesh.vertices).min.y(), bottom + 0.001);
     const auto fused = streamed(two.frames, with(method), 40, two.placements);
     ASSERT_TRUE(fused) << fused.error().message;
     ASSERT_EQ(fused->objects.size(), 1u);

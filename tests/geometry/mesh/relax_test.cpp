@@ -77,29 +77,6 @@ TEST(Relax, LeavesFixedVerticesAlone) {
   }
 }
 
-TEST(Relax, HoldsVerticesByTheirWeights) {
-  TriangleMesh mesh = plane(40);
-  const auto movable = within(mesh, Vec3f(0.5f, 0.5f, 0.0f), 0.3f);
-  const auto middle = within(mesh, Vec3f(0.5f, 0.5f, 0.0f), 0.001f);
-  const auto v = std::size_t(std::find(middle.begin(), middle.end(), 1) - middle.begin());
-  ASSERT_LT(v, middle.size());
-  mesh.vertices[v].z() = 1.0f;
-  const auto height = [&](float weight) {
-    RelaxOptions options;
-    options.hold.assign(mesh.vertices.size(), 0.0f);
-    options.hold[v] = weight;
-    const auto relaxed = relax(mesh, movable, options, RunContext());
-    EXPECT_TRUE(relaxed);
-    return relaxed->vertices[v].z();
-  };
-  EXPECT_NEAR(height(0.0f), 0.0f, 1e-5f);
-  EXPECT_NEAR(height(1e6f), 1.0f, 1e-4f);
-  // A plate gives way to a pull in proportion: w (1 - z) = z / compliance.
-  const float soft = height(0.1f), hard = height(0.5f);
-  EXPECT_GT(soft, 0.01f);
-  EXPECT_NEAR(0.1f * (1.0f - soft) / soft, 0.5f * (1.0f - hard) / hard, 1e-3f);
-}
-
 TEST(Relax, SolvesRegionsApartAndLeavesWhatNothingHolds) {
   TriangleMesh mesh = plane(30);
   TriangleMesh loose = sphere(1.0, 2, Vec3d(5, 5, 5));
@@ -177,10 +154,6 @@ TEST(Relax, FailsByName) {
   const TriangleMesh mesh = plane(4);
   const std::vector<std::uint8_t> movable(mesh.vertices.size(), 0);
   EXPECT_EQ(relax(mesh, {1, 0}, {}, RunContext()).error().code, ErrorCode::kInvalidOption);
-  RelaxOptions short_of_weights;
-  short_of_weights.hold = {1.0f};
-  EXPECT_EQ(relax(mesh, movable, short_of_weights, RunContext()).error().code,
-            ErrorCode::kInvalidOption);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(relax(mesh, movable, tight(nan), RunContext()).error().code, ErrorCode::kInvalidOption);
   const RunContext context;

@@ -59,28 +59,6 @@ TEST(PlateClosing, LeavesWhatWasMeasuredAlone) {
   EXPECT_EQ(all.vertices, before.vertices);
 }
 
-TEST(PlateClosing, IsDrawnToAWeakIslandByAsMuchAsWasMeasuredThere) {
-  // On the flat cap: a vertex, or all around it, each with some support.
-  const auto middle = std::uint32_t(1 + 6 * kSheetAround);
-  const auto height_with = [&](float reach_m, float each) {
-    TriangleMesh mesh = flat_capped();
-    std::vector<float> support = measured_beyond(mesh, kCap_m);
-    for (std::size_t v = 0; v < support.size(); ++v)
-      if (mesh.vertices[v].y() > 0.0f &&
-          (mesh.vertices[v] - mesh.vertices[middle]).norm() <= reach_m)
-        support[v] = each;
-    EXPECT_TRUE(close_as_plate(mesh, support, anywhere(), {}));
-    return mesh.vertices[middle].y();
-  };
-  const float flat = ball_height(kCap_m), alone = height_with(0.0001f, 0.0f);
-  ASSERT_GT(alone, flat + 0.001f);
-  const float hinted = height_with(0.0001f, 0.03f), drawn = height_with(0.0012f, 0.4f);
-  EXPECT_GT(hinted, flat + 0.7f * (alone - flat)) << "a stray vertex dents the plate";
-  EXPECT_LT(drawn, flat + 0.3f * (alone - flat));
-  EXPECT_LT(drawn, hinted);
-  EXPECT_EQ(height_with(0.0001f, 0.9f), flat) << "what was measured well is no hint";
-}
-
 TEST(PlateClosing, DoesNotGoWhereAViewSawNothing) {
   TriangleMesh mesh = flat_capped();
   PlateClosing closing = anywhere();

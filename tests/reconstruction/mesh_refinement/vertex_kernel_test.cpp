@@ -39,11 +39,11 @@ struct TestView {
   }
 };
 
-/// Weights, offsets and weights of the near, for vertices on a plane 10 cm wide (wider than the
+/// Weights and offsets, for vertices on a plane 10 cm wide (wider than the
 /// image) that faces the camera within 25 deg or so.
-std::array<std::vector<float>, 3> sums_of(const VertexKernel& kernel,
+std::array<std::vector<float>, 2> sums_of(const VertexKernel& kernel,
                                           const VertexKernelView& view) {
-  std::array<std::vector<float>, 7> columns;
+  std::array<std::vector<float>, 6> columns;
   for (std::size_t i = 0; i < kVertices; ++i) {
     for (std::size_t c = 0; c < 6; ++c) {
       const float x = uniform(10 * i + c) - 0.5f;
@@ -52,14 +52,12 @@ std::array<std::vector<float>, 3> sums_of(const VertexKernel& kernel,
     const float length =
         std::sqrt(columns[3][i] * columns[3][i] + columns[4][i] * columns[4][i] + 1);
     for (std::size_t c = 3; c < 6; ++c) columns[c][i] /= length;
-    columns[6].push_back(1.0f + uniform(10 * i + 6));
   }
   const VertexColumns vertices{columns[0].data(), columns[1].data(), columns[2].data(),
-                               columns[3].data(), columns[4].data(), columns[5].data(),
-                               columns[6].data()};
-  std::array<std::vector<float>, 3> out;
+                               columns[3].data(), columns[4].data(), columns[5].data()};
+  std::array<std::vector<float>, 2> out;
   for (auto& sums : out) sums.assign(kVertices, 0.0f);
-  VertexSums sums{out[0].data(), out[1].data(), out[2].data()};
+  VertexSums sums{out[0].data(), out[1].data()};
   const VertexKernelScale scale{1.0f / (0.003f * 0.003f), 0.001f, 0.0001f, 4.685f, 0.2f, 0.5f};
   kernel.add_view(view, vertices, 0, kVertices, scale, sums);
   return out;

@@ -45,16 +45,6 @@ TEST(ExpectedErrors, AreLargerWhereTheSurfaceBends) {
   EXPECT_GT(errors[at(20, 20)], 1.3f * errors[at(5, 20)]);
 }
 
-TEST(ExpectedErrors, AreLargerAtBendsWhereTheFitIsStiffer) {
-  const TriangleMesh mesh = sheet(0.5f);
-  const auto lost = [&](float measurements) {
-    const auto errors =
-        expected_errors(mesh, std::vector<float>(mesh.vertices.size(), measurements), kScale);
-    return std::sqrt(std::pow(errors[at(20, 20)], 2.0f) - std::pow(errors[at(5, 20)], 2.0f));
-  };
-  EXPECT_GT(lost(2.0f), 1.1f * lost(200.0f));
-}
-
 TEST(ExpectedErrors, GrowWithTheWayToWhatWasMeasured) {
   const TriangleMesh mesh = sheet(0.0f);
   std::vector<float> support(mesh.vertices.size(), 50.0f);
@@ -71,7 +61,6 @@ TEST(ExpectedErrors, ScaleWithTheNoise) {
   const std::vector<float> support(mesh.vertices.size(), 10.0f);
   ErrorScale twice = kScale;
   twice.noise_m *= 2.0;
-  twice.edge_m *= std::sqrt(2.0);  // as stiff
   EXPECT_NEAR(expected_errors(mesh, support, twice)[at(20, 20)],
               2.0f * expected_errors(mesh, support, kScale)[at(20, 20)], 1e-6f);
 }

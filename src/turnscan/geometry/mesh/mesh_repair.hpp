@@ -73,9 +73,6 @@ struct RelaxOptions {
   /// 0: thin plate (continues slope and curvature of the surroundings), 1: membrane (least area,
   /// like a soap film); a mixture in between.
   double tension = 0.0;
-  /// Per vertex, at least 0: weight of the squared distance of a movable vertex from its start
-  /// position. Empty: 0 for all.
-  std::vector<float> hold = {};
 };
 OptionTable describe(RelaxOptions& options);
 

@@ -46,9 +46,8 @@ std::vector<std::vector<std::uint32_t>> find_regions(const mesh::VertexNeighbour
 }
 
 /// Minimises (1 - tension) * sum over vertices |sum over neighbours (x_i - x_j)|^2 / degree
-/// + tension * sum over edges |x_i - x_j|^2 + sum over vertices hold |x - start|^2 over one region
-/// (Kobbelt, Campagna, Vorsatz, Seidel 1998, "Interactive multi-resolution modeling on arbitrary
-/// meshes").
+/// + tension * sum over edges |x_i - x_j|^2 over one region (Kobbelt, Campagna, Vorsatz, Seidel
+/// 1998, "Interactive multi-resolution modeling on arbitrary meshes").
 class PlateSystem {
  public:
   PlateSystem(const TriangleMesh& mesh, const mesh::VertexNeighbours& adjacency,
@@ -58,7 +57,6 @@ class PlateSystem {
     origin_ = mesh.vertices[region[0]].cast<double>();
     right_ = Columns3::Zero(Eigen::Index(region.size()), 3);
     assemble(options.tension);
-    if (!options.hold.empty()) hold(options.hold);
   }
 
   Result<> solve(std::vector<Vec3f>& vertices) {
@@ -91,16 +89,6 @@ class PlateSystem {
       const bool hub = adjacency_.of(v).size() > kLargestPlateDegree;
       if (!hub && tension < 1.0) add_plate(v, 1.0 - tension);
       if (hub || tension > 0.0) add_membrane(v, hub ? 1.0 : tension);
-    }
-  }
-
-  void hold(const std::vector<float>& weights) {
-    for (std::size_t i = 0; i < region_.size(); ++i) {
-      const std::uint32_t v = region_[i];
-      if (weights[v] <= 0.0f) continue;
-      triplets_.emplace_back(int(i), int(i), double(weights[v]));
-      right_.row(Eigen::Index(i)) +=
-          double(weights[v]) * (mesh_.vertices[v].cast<double>() - origin_).transpose();
     }
   }
 
@@ -165,11 +153,6 @@ Result<TriangleMesh> relax(const TriangleMesh& mesh, const std::vector<std::uint
     return fail(ErrorCode::kInvalidOption,
                 "relax: {} marks for {} vertices; give one for each vertex", movable.size(),
                 mesh.vertices.size());
-  }
-  if (!options.hold.empty() && options.hold.size() != mesh.vertices.size()) {
-    return fail(ErrorCode::kInvalidOption,
-                "relax: {} weights for {} vertices; give one for each vertex or none",
-                options.hold.size(), mesh.vertices.size());
   }
   const mesh::VertexNeighbours adjacency(mesh);
   const auto regions = find_regions(adjacency, movable);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit_parts.hpp>
@@ -11,17 +12,10 @@ namespace turnscan::mesh_refinement {
 namespace {
 
 constexpr std::size_t kGrain = 4096;
-/// Support from which a bend beside a vertex may be a crease: a pixel or two on an edge.
-constexpr float kCreaseSupport = 0.15f;
-/// Fitted to scans of 36 to 460 frames.
-constexpr double kStiffer = 1.31, kMaxStiffer = 16.0;
-/// The same if neighbours have common errors.
-constexpr double kStifferInCommon = 0.45, kPowerInCommon = 2.5, kMaxStifferInCommon = 32.0;
-/// Conjugate gradients stop at this relative residual, or after this many rounds; more of them for
-/// high stiffness, since they grow with the square root of the condition number.
-constexpr double kTolerance = 1e-4;
+/// Conjugate gradients stop at this residual, relative to that before anything has moved, or after
+/// this many rounds.
+constexpr double kTolerance = 1e-3;
 constexpr int kMaxRounds = 80;
-constexpr double kRoundsSufficeFor = 8.0;  // times the usual stiffness
 /// Weight with which each vertex stays in place, in measurements: hardly measured surface is also
 /// known from the volume.
 constexpr float kStay = 0.3f;
@@ -30,6 +24,16 @@ constexpr float kStay = 0.3f;
 constexpr int kGapRings = 3;
 /// Rounds of averaging with the neighbours that determine the bending of a vertex's surroundings.
 constexpr int kSteadyRounds = 30;
+/// The surface is also fitted with this many larger stiffnesses, each this many times the one
+/// before: the width over which a fit averages grows with the fourth root, and doubles.
+constexpr int kStiffer = 2;
+constexpr float kTimesStiffer = 16.0f;
+/// Rounds of averaging with the neighbours over which two fits are compared.
+constexpr int kCompareRounds = 60;
+
+/// What is fitted, and what the same fit makes of errors, side by side: one pass through the mesh.
+using Columns = Eigen::Array4f;
+static_assert(kErrorSamples + 1 == Columns::RowsAtCompileTime);
 
 class OffsetSolver {
  public:
@@ -41,24 +45,40 @@ class OffsetSolver {
         normals_(normals),
         measured_(measured),
         scale_(scale),
-        typical_(typical_support(measured.support)),
-        stiffer_(stiffening(scale.noise_m, scale.correlation, scale.spacing_m, scale.edge_m,
-                            typical_)) {}
+        typical_(typical_support(measured.support)) {}
 
-  std::vector<float> offsets() {
+  FittedOffsets offsets(std::span<const std::vector<float>> errors,
+                        const std::vector<float>& known) {
     bends();
     weights();
     subtract_steady_bends();
     forget_unseen_bends();
-    return solve();
-  }
-
-  /// The solution is linear in what was measured and in the bends.
-  std::vector<float> without_bends() {
-    bends();
-    weights();
-    std::fill(bend_.begin(), bend_.end(), 0.0f);
-    return solve();
+    const std::size_t n = bend_.size();
+    std::vector<Columns> right(n, Columns::Zero());
+    for (std::size_t v = 0; v < n; ++v) {
+      if (measured_.support[v] > 1e-3f) right[v][0] = measured_.offset[v];
+      for (std::size_t e = 0; e < errors.size(); ++e) right[v][Eigen::Index(e) + 1] = errors[e][v];
+    }
+    std::vector<Columns> fit(n, Columns::Zero());
+    solve(right, fit);
+    std::vector<Columns> best = fit;
+    std::vector<float> trust(errors.empty() ? 0 : n, 1.0f);
+    for (int level = 0; level < kStiffer && !errors.empty(); ++level) {
+      for (float& m : stiff_) m *= kTimesStiffer;
+      std::vector<Columns> smoother = fit;
+      solve(right, smoother);
+      blend(fit, smoother, known, trust, best);
+      fit.swap(smoother);
+    }
+    FittedOffsets out;
+    out.offset.resize(n);
+    out.errors.assign(errors.size(), std::vector<float>(n));
+    parallel_for(n, kGrain, [&](std::size_t v) {
+      out.offset[v] = best[v][0];
+      for (std::size_t e = 0; e < errors.size(); ++e)
+        out.errors[e][v] = best[v][Eigen::Index(e) + 1];
+    });
+    return out;
   }
 
  private:
@@ -78,33 +98,15 @@ class OffsetSolver {
     return (bend_[v] + count * neighbours_.mean(bend_, v, 0.0f)) / (1.0f + count);
   }
 
-  /// Degree to which a vertex and its neighbours were measured, 0 to 1. A bend beside unmeasured
-  /// surface is not a crease: measurements end there raggedly.
-  std::vector<float> seen() const {
-    std::vector<float> out(bend_.size());
-    parallel_for(out.size(), kGrain, [&](std::size_t v) {
-      out[v] = below_floor(mesh_.vertices[v], scale_)
-                   ? 1.0f
-                   : std::min(1.0f, measured_.support[v] / kCreaseSupport);
-    });
-    return neighbours_.least(std::move(out), 1);
-  }
-
   /// Stiffness m and coupling c of fitted_offsets(), per vertex.
   void weights() {
-    seen_ = seen();
     const float crease = float(scale_.crease_sigmas) * float(scale_.noise_m);
     stiff_.resize(bend_.size());
     coupling_.resize(bend_.size());
     fade_.resize(bend_.size());
-    const float stiffness = float(scale_.stiffness * stiffer_) * typical_;
+    const float stiffness = float(scale_.stiffness) * typical_;
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) {
-      // Where fewer measurements than usual exist, only a larger bend exceeds the noise.
-      const float around =
-          0.5f * (measured_.support[v] + neighbours_.mean(measured_.support, v, 0.0f)) / typical_;
-      const float share =
-          below_floor(mesh_.vertices[v], scale_) ? 1.0f : std::clamp(around, 0.02f, 1.0f);
-      const float s = seen_[v] * shared_bend(v) * std::sqrt(share * typical_) / crease;
+      const float s = shared_bend(v) * std::sqrt(typical_) / crease;
       const float fade = 1.0f / ((1.0f + s * s) * (1.0f + s * s));
       stiff_[v] = stiffness * fade;
       fade_[v] = fade;
@@ -113,27 +115,54 @@ class OffsetSolver {
   }
 
   /// Bending like that of the surroundings, of a ball or a leg, is not penalised, measured or not:
-  /// only deviations from it are. Creases and unmeasured surface are excluded from the
-  /// surroundings.
+  /// only deviations from it are. Creases are excluded from the surroundings.
   void subtract_steady_bends() {
     const std::size_t n = bend_.size();
-    std::vector<float> sum(n), weight(n);
+    std::vector<Pair> sums(n);
+    parallel_for(n, kGrain, [&](std::size_t v) { sums[v] = {fade_[v] * bend_[v], fade_[v]}; });
+    sums = around(std::move(sums), kSteadyRounds);
     parallel_for(n, kGrain, [&](std::size_t v) {
-      weight[v] = fade_[v] * seen_[v];
-      sum[v] = weight[v] * bend_[v];
+      bend_[v] -= sums[v][1] > 1e-6f ? sums[v][0] / sums[v][1] : 0.0f;
     });
-    for (int round = 0; round < kSteadyRounds; ++round) {
-      std::vector<float> next_sum(n), next_weight(n);
-      parallel_for(n, kGrain, [&](std::size_t v) {
-        const float count = neighbours_.count(v);
-        next_sum[v] = (sum[v] + count * neighbours_.mean(sum, v, 0.0f)) / (1.0f + count);
-        next_weight[v] = (weight[v] + count * neighbours_.mean(weight, v, 0.0f)) / (1.0f + count);
+  }
+
+  /// Two values of a vertex that are averaged alike.
+  using Pair = Eigen::Array2f;
+
+  std::vector<Pair> around(std::vector<Pair> values, int rounds) const {
+    std::vector<Pair> next(values.size());
+    for (int round = 0; round < rounds; ++round) {
+      parallel_for(values.size(), kGrain, [&](std::size_t v) {
+        Pair sum = values[v];
+        neighbours_.each(v, [&](std::uint32_t u) { sum += values[u]; });
+        next[v] = sum / (1.0f + neighbours_.count(v));
       });
-      sum.swap(next_sum);
-      weight.swap(next_weight);
+      values.swap(next);
     }
-    parallel_for(n, kGrain,
-                 [&](std::size_t v) { bend_[v] -= weight[v] > 1e-6f ? sum[v] / weight[v] : 0.0f; });
+    return values;
+  }
+
+  /// Moves the best fit towards a stiffer one as far as that is expected to err less. Their
+  /// difference is noise of the weaker one, whose size the errors tell, and bias of the stiffer
+  /// one. The error of fit + w (smoother - fit) is least at w = noise / (noise + bias), squared,
+  /// if the stiffer fit and the difference err independently, as those of an efficient and of an
+  /// inefficient estimate do (J. Hausman, "Specification tests in econometrics", 1978). trust: the
+  /// product of the weights w so far.
+  void blend(const std::vector<Columns>& fit, const std::vector<Columns>& smoother,
+             const std::vector<float>& known, std::vector<float>& trust,
+             std::vector<Columns>& best) const {
+    std::vector<Pair> squares(fit.size(), Pair::Zero());
+    parallel_for(fit.size(), kGrain, [&](std::size_t v) {
+      if (!(known[v] > 1.0f)) return;
+      const Columns d = (smoother[v] - fit[v]).square();
+      squares[v] = {d.tail<kErrorSamples>().sum() / known[v], d[0]};
+    });
+    squares = around(std::move(squares), kCompareRounds);
+    parallel_for(fit.size(), kGrain, [&](std::size_t v) {
+      const auto [noise, all] = std::pair(squares[v][0], squares[v][1]);
+      trust[v] *= all > noise ? noise / all : all > 0.0f ? 1.0f : 0.0f;
+      best[v] += trust[v] * (smoother[v] - fit[v]);
+    });
   }
 
   /// Unmeasured parts of the mesh have cliffs and webs: their bends must not move the measured
@@ -150,20 +179,22 @@ class OffsetSolver {
 
   /// Adds the effect on the vertices of a force on the bend at each vertex, here each neighbour's
   /// part of it.
-  void add_forces(const std::vector<float>& part, std::vector<float>& to) const {
+  void add_forces(const std::vector<Columns>& part, std::vector<Columns>& to) const {
     parallel_for(to.size(), kGrain, [&](std::size_t v) {
-      float sum = to[v] + neighbours_.count(v) * part[v];
+      Columns sum = to[v] + neighbours_.count(v) * part[v];
       neighbours_.each(v, [&](std::uint32_t u) { sum -= part[u]; });
       to[v] = sum;
     });
   }
 
   /// The left side of the normal equations.
-  void apply(const std::vector<float>& delta, std::vector<float>& part,
-             std::vector<float>& out) const {
+  void apply(const std::vector<Columns>& delta, std::vector<Columns>& part,
+             std::vector<Columns>& out) const {
     parallel_for(delta.size(), kGrain, [&](std::size_t v) {
-      part[v] = (stiff_[v] + coupling_[v]) * (delta[v] - neighbours_.mean(delta, v, 0.0f)) /
-                std::max(1.0f, neighbours_.count(v));
+      const float count = std::max(1.0f, neighbours_.count(v));
+      Columns sum = Columns::Zero();
+      neighbours_.each(v, [&](std::uint32_t u) { sum += delta[u]; });
+      part[v] = (stiff_[v] + coupling_[v]) / count * (delta[v] - sum / count);
       out[v] = (measured_.support[v] + kStay) * delta[v];
     });
     add_forces(part, out);
@@ -180,58 +211,66 @@ class OffsetSolver {
     return out;
   }
 
-  /// The right side: with all vertices at their start.
-  std::vector<float> residual() const {
-    std::vector<float> part(bend_.size()), out(bend_.size());
+  /// What the right side lacks at the given offsets. Bends are of the first column.
+  std::vector<Columns> residual(const std::vector<Columns>& right,
+                                const std::vector<Columns>& delta) const {
+    std::vector<Columns> part(right.size()), image(right.size()), out = right;
+    apply(delta, part, image);
     parallel_for(out.size(), kGrain, [&](std::size_t v) {
-      part[v] = stiff_[v] * bend_[v] / std::max(1.0f, neighbours_.count(v));
-      out[v] = measured_.support[v] > 1e-3f ? measured_.offset[v] : 0.0f;
+      part[v].setZero();
+      part[v][0] = stiff_[v] * bend_[v] / std::max(1.0f, neighbours_.count(v));
     });
     add_forces(part, out);
+    parallel_for(out.size(), kGrain, [&](std::size_t v) { out[v] -= image[v]; });
     return out;
   }
 
+  using Sums = Eigen::Array4d;
+
   /// Sums in chunks whose length does not depend on the number of threads.
-  static double dot(const std::vector<float>& a, const std::vector<float>& b) {
-    double sum = 0.0;
-    for (const double part :
-         parallel_chunks<double>(a.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-           double of_chunk = 0.0;
-           for (std::size_t v = begin; v < end; ++v) of_chunk += double(a[v]) * double(b[v]);
+  static Sums dot(const std::vector<Columns>& a, const std::vector<Columns>& b) {
+    Sums sum = Sums::Zero();
+    for (const Sums& part :
+         parallel_chunks<Sums>(a.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+           Sums of_chunk = Sums::Zero();
+           for (std::size_t v = begin; v < end; ++v)
+             of_chunk += (a[v] * b[v]).template cast<double>();
            return of_chunk;
          }))
       sum += part;
     return sum;
   }
 
-  /// Conjugate gradients with the inverse diagonal as preconditioner (Hestenes and Stiefel 1952).
-  /// They are required for long, hardly measured waves, which iterations with fixed steps leave
-  /// unchanged.
-  std::vector<float> solve() const {
-    const std::size_t n = bend_.size();
+  /// Conjugate gradients with the inverse diagonal as preconditioner (Hestenes and Stiefel 1952),
+  /// each column with its own steps, from the given offsets on. They are required for long, hardly
+  /// measured waves, which iterations with fixed steps leave unchanged.
+  void solve(const std::vector<Columns>& right, std::vector<Columns>& delta) {
+    const std::size_t n = right.size();
     const std::vector<float> scale = diagonal();
-    std::vector<float> delta(n, 0.0f), left = residual(), scaled(n), direction(n, 0.0f), part(n),
-                                       image(n);
-    double before = 0.0, first = 0.0;
-    const int most = int(kMaxRounds * std::sqrt(std::max(1.0, stiffer_ / kRoundsSufficeFor)));
-    for (int round = 0; round < most; ++round) {
+    std::vector<Columns> left = residual(right, delta), direction(n, Columns::Zero()), part(n),
+                         image(n), scaled(n);
+    Sums before = Sums::Ones();
+    for (int round = 0; round < kMaxRounds; ++round) {
       parallel_for(n, kGrain, [&](std::size_t v) { scaled[v] = left[v] / scale[v]; });
-      const double now = dot(left, scaled);
-      if (round == 0) first = now;
-      if (!(now > kTolerance * kTolerance * first)) break;
-      const float turn = round == 0 ? 0.0f : float(now / before);
+      const Sums now = dot(left, scaled);
+      if (!goal_) goal_ = kTolerance * kTolerance * now;
+      const auto going = (now > *goal_).eval();
+      if (!going.any()) break;
+      const Columns turn = (round == 0 ? Sums(Sums::Zero()) : ratio(now, before)).cast<float>();
       parallel_for(n, kGrain,
                    [&](std::size_t v) { direction[v] = scaled[v] + turn * direction[v]; });
       apply(direction, part, image);
-      const float along = float(now / dot(direction, image));
+      const Columns along = going.select(ratio(now, dot(direction, image)), 0.0).cast<float>();
       parallel_for(n, kGrain, [&](std::size_t v) {
         delta[v] += along * direction[v];
         left[v] -= along * image[v];
       });
       before = now;
     }
-    return delta;
   }
+
+  /// 0 where there is nothing left to divide.
+  static Sums ratio(const Sums& a, const Sums& b) { return (b > 0.0).select(a / b, 0.0); }
 
   const TriangleMesh& mesh_;
   const MeshNeighbours& neighbours_;
@@ -239,8 +278,8 @@ class OffsetSolver {
   const VertexMeasurements& measured_;
   const MeshFitScale& scale_;
   float typical_;
-  double stiffer_;
-  std::vector<float> bend_, stiff_, coupling_, fade_, seen_;
+  std::vector<float> bend_, stiff_, coupling_, fade_;
+  std::optional<Sums> goal_;  // of solve()
 };
 
 }  // namespace
@@ -260,31 +299,15 @@ std::vector<std::uint8_t> unseen_vertices(const std::vector<float>& support) {
   return out;
 }
 
-double stiffening(double noise_m, double correlation, double spacing_m, double edge_m,
-                  float typical_support) {
-  const double alone =
-      noise_m * spacing_m / (edge_m * edge_m * std::sqrt(std::max(1e-3, double(typical_support))));
-  const double all = correlation * alone;
-  const double in_common =
-      kStifferInCommon * (std::pow(all, kPowerInCommon) - std::pow(alone, kPowerInCommon));
-  return std::max(std::clamp(kStiffer * all, 1.0, kMaxStiffer),
-                  std::min(in_common, kMaxStifferInCommon));
-}
-
 /// Offsets d that minimise sum w (d - own)^2 + sum m (bend + mean of the neighbours' d - d)^2 + sum
 /// c (mean of the neighbours' d - d)^2 + kStay sum d^2. A bend that is too large to be noise is a
 /// crease, where m fades (Geman and McClure) while c grows: the crease keeps its shape, and moves
 /// with its neighbours rather than each vertex with its own noise.
-std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
-                                  const std::vector<Vec3f>& normals,
-                                  const VertexMeasurements& measured, const MeshFitScale& scale) {
-  return OffsetSolver(mesh, neighbours, normals, measured, scale).offsets();
-}
-
-std::vector<float> fitted_errors(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
-                                 const std::vector<Vec3f>& normals,
-                                 const VertexMeasurements& errors, const MeshFitScale& scale) {
-  return OffsetSolver(mesh, neighbours, normals, errors, scale).without_bends();
+FittedOffsets fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
+                             const std::vector<Vec3f>& normals, const VertexMeasurements& measured,
+                             const MeshFitScale& scale, std::span<const std::vector<float>> errors,
+                             const std::vector<float>& known) {
+  return OffsetSolver(mesh, neighbours, normals, measured, scale).offsets(errors, known);
 }
 
 }  // namespace turnscan::mesh_refinement

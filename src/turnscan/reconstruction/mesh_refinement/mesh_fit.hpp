@@ -11,16 +11,13 @@
 namespace turnscan::mesh_refinement {
 
 struct MeshFitScale {
-  double noise_m = 0.001;  ///< of a depth value along its ray
-  /// Ratio between the noise of means over many pixels and that of means of independent ones: above
-  /// 1 if a filter gave neighbours common errors (estimation/sensor_filter.hpp).
-  double correlation = 1.0;
+  double noise_m = 0.001;     ///< of a depth value along its ray
   double spacing_m = 0.0024;  ///< of the points of one frame
   double edge_m = 0.001;      ///< usual length of the mesh's edges
   double reach_m = 0.0013;    ///< reach across the normal; measurements beyond it are ignored
   double floor_m = 0.0002;    ///< of errors that do not decrease with the incidence angle
-  /// Bending stiffness of the surface relative to the measurements; larger if few and noisy ones
-  /// leave more noise.
+  /// Least bending stiffness of the surface relative to the measurements. The fit raises it up to
+  /// 256 times wherever the measurements of independent groups of views allow.
   double stiffness = 15.0;
   /// Curvature, averaged with the neighbours', in standard deviations of the noise, at which the
   /// weight of the bending term falls to a quarter: larger ones are creases.
@@ -52,13 +49,6 @@ float typical_support(const std::vector<float>& support);
 inline constexpr float kUnseenShare = 0.02f;
 /// The unseen vertices, one flag per vertex.
 std::vector<std::uint8_t> unseen_vertices(const std::vector<float>& support);
-
-/// Factor on MeshFitScale::stiffness, 1 to 32, that the fit needs: the noise left in the
-/// measurements falls with their number, while the bending of the surface does not. Common errors
-/// of neighbours leave waves wider than the mesh's edges, which need more stiffness the larger they
-/// are. Longer edges are stiffer by themselves.
-double stiffening(double noise_m, double correlation, double spacing_m, double edge_m,
-                  float typical_support);
 
 /// Minimises over offsets along the normals the robust (Tukey) squares of the distances between the
 /// measurements around each vertex and its tangent plane, in the views that face it, and a bending

@@ -3,6 +3,7 @@
 // unmeasured vertices.
 
 #include <cstdint>
+#include <span>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit.hpp>
 
 namespace turnscan::mesh_refinement {
@@ -40,15 +41,20 @@ inline bool below_floor(const Vec3f& vertex, const MeshFitScale& scale) {
   return scale.floor_height_m && vertex.y() < float(*scale.floor_height_m);
 }
 
-/// Offset of each vertex along its normal.
-std::vector<float> fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
-                                  const std::vector<Vec3f>& normals,
-                                  const VertexMeasurements& measured, const MeshFitScale& scale);
+/// Independent samples of the measurements' errors, from which the fit chooses its stiffness.
+inline constexpr std::size_t kErrorSamples = 3;
+struct FittedOffsets {
+  std::vector<float> offset;               ///< of each vertex along its normal
+  std::vector<std::vector<float>> errors;  ///< what the same fit makes of each sample of errors
+};
 
-/// What fitted_offsets() makes of errors of the measurements: offset sums, of weight times error.
-std::vector<float> fitted_errors(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
-                                 const std::vector<Vec3f>& normals,
-                                 const VertexMeasurements& errors, const MeshFitScale& scale);
+/// errors: kErrorSamples samples of the errors of VertexMeasurements::offset, or none: then the
+/// surface has the stiffness of the scale everywhere. known: sum over the samples of their variance
+/// over that of the errors.
+FittedOffsets fitted_offsets(const TriangleMesh& mesh, const MeshNeighbours& neighbours,
+                             const std::vector<Vec3f>& normals, const VertexMeasurements& measured,
+                             const MeshFitScale& scale, std::span<const std::vector<float>> errors,
+                             const std::vector<float>& known);
 
 /// Smallest cosine between a triangle's normals before and after take_steps().
 inline constexpr float kMinTurn = 0.3f;

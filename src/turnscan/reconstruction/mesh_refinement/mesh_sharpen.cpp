@@ -3,7 +3,6 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
-#include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
 #include <turnscan/reconstruction/mesh_refinement/vertex_observations.hpp>
 #include <turnscan/reconstruction/views/view_drawing.hpp>
@@ -22,13 +21,6 @@ constexpr int kRings = 8;
 constexpr float kMin_m = 1e-4f;     // shorter steps are mostly residual noise of the surface
 constexpr float kTrusted = 0.005f;  // relative to the typical support; vertices with less move less
 constexpr float kUnseen = 1e-4f;    // vertices with less do not move
-/// Inward motion of a thin part's far side, which no view measured, requires more support: it is
-/// not farther away because its near side is nearer.
-constexpr float kTrustedInwards = 0.1f;
-/// A part is thin if the other side is within this many point spacings.
-constexpr double kThinSpacings = 5.0;
-/// Maximum cosine between the normals of two sides.
-constexpr float kOtherSide = -0.5f;
 
 void put(views::DepthView& view, std::size_t at, float z) {
   const float raw = std::round((z - view.bias_m) / view.unit_m);
@@ -96,29 +88,6 @@ void blend(std::vector<T>& values, const MeshNeighbours& neighbours, const T& ze
   values.swap(out);
 }
 
-/// Detects where another side of the mesh is behind a vertex.
-class ThinParts {
- public:
-  ThinParts(const std::vector<Vec3f>& vertices, const std::vector<Vec3f>& normals, double reach_m)
-      : vertices_(vertices), normals_(normals), reach_m_(float(reach_m)), tree_(vertices) {}
-
-  bool contain(std::size_t v) const {
-    std::vector<std::pair<std::uint32_t, float>> near;
-    tree_.radius(vertices_[v], reach_m_, near);
-    return std::any_of(near.begin(), near.end(), [&](const auto& other) {
-      const std::uint32_t u = other.first;
-      return normals_[u].dot(normals_[v]) < kOtherSide &&
-             (vertices_[u] - vertices_[v]).dot(normals_[v]) < 0.0f;
-    });
-  }
-
- private:
-  const std::vector<Vec3f>& vertices_;
-  const std::vector<Vec3f>& normals_;
-  float reach_m_;
-  KdTree tree_;
-};
-
 /// The step of each vertex after which the filtered mesh would match the measurements.
 std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<Vec3f>& normals,
                                     const VertexMeasurements& measured,
@@ -138,7 +107,6 @@ std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<
     blend(step, neighbours, Vec3f(Vec3f::Zero()));
     blend(weight, neighbours, 0.0f);
   }
-  const ThinParts thin(mesh.vertices, normals, kThinSpacings * scale.spacing_m);
   parallel_for(n, 1024, [&](std::size_t v) {
     const float length = weight[v] > 0.0f ? step[v].norm() / weight[v] : 0.0f;
     if (!(weight[v] > kUnseen * typical) || !(length > kMin_m) ||
@@ -146,11 +114,7 @@ std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<
       step[v].setZero();
       return;
     }
-    float trusted = kTrusted;
-    const float inwards = -step[v].dot(normals[v]) / step[v].norm();
-    if (inwards > 0.0f && weight[v] < kTrustedInwards * typical && thin.contain(v))
-      trusted = std::lerp(kTrusted, kTrustedInwards, inwards);
-    const float trust = std::min(1.0f, weight[v] / (trusted * typical));
+    const float trust = std::min(1.0f, weight[v] / (kTrusted * typical));
     step[v] *= trust * std::min(float(2.0 * scale.limit_m), length - kMin_m) / step[v].norm();
   });
   return step;
@@ -164,7 +128,7 @@ Result<> sharpen_mesh(TriangleMesh& mesh, std::span<const views::DepthView> view
                   draw_some(mesh, views, float(share), context));
   const std::vector<Vec3f> normals = vertex_normals(mesh);
   VertexObserver observer(mesh);
-  observer.set_vertices(mesh.vertices, normals, {});
+  observer.set_vertices(mesh.vertices, normals);
   context.begin_phase("sharpen", 2 * observer.blocks());
   TURNSCAN_ASSIGN(
       const auto filtered,
@@ -172,7 +136,7 @@ Result<> sharpen_mesh(TriangleMesh& mesh, std::span<const views::DepthView> view
   TURNSCAN_ASSIGN(
       const auto found,
       observer.observe(views, evenly_spread(views.size(), views.size()), scale, context));
-  take_steps(mesh, sharpening_steps(mesh, normals, found.measured, filtered.measured, scale));
+  take_steps(mesh, sharpening_steps(mesh, normals, found, filtered, scale));
   return {};
 }
 

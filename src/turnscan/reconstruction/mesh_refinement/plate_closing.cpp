@@ -17,16 +17,7 @@ constexpr float kTouchCells = 1.0f;    ///< lower heights above the platter coun
 constexpr double kBalanceCells = 3.0;  ///< from the contact below the centre of mass
 /// Rings around intersections with other surface.
 constexpr int kRingsDrawnBack[] = {6, 12, 24, 48};
-constexpr int kContactRounds = 6;   ///< rounds of averaging where the plate touches observed space
 constexpr float kNearCells = 1.5f;  ///< the rim is within observed space
-/// Share of a membrane, which is as stiff as a plate at a length of some 60 edges. Wide openings
-/// are spanned, and the undersides of limbs stay round.
-constexpr double kTension = 0.0003;
-
-/// Islands in unmeasured surface: those from a few mixed pixels are weak constraints.
-constexpr float kWeakIsland = 0.5f;    ///< support of the best vertex, relative to the typical one
-constexpr float kSmallIsland = 20.0f;  ///< number of typical vertices with the same total support
-
 using Marks = std::vector<std::uint8_t>;
 
 class PlateCloser {
@@ -35,8 +26,6 @@ class PlateCloser {
               const RunContext& context)
       : mesh_(mesh), closing_(closing), context_(context), neighbours_(mesh) {
     loose_ = unseen_vertices(support);
-    hold_.assign(loose_.size(), 0.0f);
-    loosen_islands(support);
     for (std::size_t v = 0; v < loose_.size(); ++v)
       if (loose_[v] && closing_.stands(mesh.vertices[v])) loose_[v] = 0;
   }
@@ -47,7 +36,6 @@ class PlateCloser {
     const Marks before = self_intersections(mesh_, triangles_at(mesh_, loose_)).triangles;
     TURNSCAN_TRY(bend(start));
     for (int n = 0; n < kMaxRests && rest_on_platter(); ++n) TURNSCAN_TRY(bend(start));
-    even_contacts();
     for (const std::uint32_t v : rests_) loose_[v] = 1;
     bool crosses = true;
     for (const int rings : kRingsDrawnBack) {
@@ -64,39 +52,12 @@ class PlateCloser {
   }
 
  private:
-  /// Loosens groups of vertices with little support that are isolated from other measured surface:
-  /// the plate is attracted in proportion to their support, and not dented by single ones.
-  void loosen_islands(const std::vector<float>& support) {
-    const float typical = typical_support(support);
-    Marks apart(loose_.size());
-    for (std::size_t v = 0; v < apart.size(); ++v) apart[v] = loose_[v] ? 0 : 1;
-    std::vector<std::uint32_t> island;
-    for (std::uint32_t seed = 0; seed < apart.size(); ++seed) {
-      if (!apart[seed]) continue;
-      island.clear();
-      take_group(seed, apart, island);
-      float best = 0.0f, sum = 0.0f;
-      for (const std::uint32_t v : island) {
-        best = std::max(best, support[v] / typical);
-        sum += support[v] / typical;
-      }
-      if (best >= kWeakIsland || sum >= kSmallIsland) continue;
-      for (const std::uint32_t v : island) {
-        loose_[v] = 1;
-        hold_[v] = support[v] / typical;
-      }
-    }
-  }
-
   /// Solves for the plate until no more vertices touch observed space.
   Result<> bend(const std::vector<Vec3f>& start) {
     Marks free = loose_;
-    contact_.assign(loose_.size(), 0);
-    RelaxOptions plate;
-    plate.tension = kTension;
-    plate.hold = hold_;
+    Marks contact(loose_.size(), 0);  // fixed at the border of observed space
     for (int round = 0; round < kMaxContacts; ++round) {
-      TURNSCAN_ASSIGN(const TriangleMesh bent, relax(mesh_, free, plate, context_));
+      TURNSCAN_ASSIGN(const TriangleMesh bent, relax(mesh_, free, {}, context_));
       Marks touches(loose_.size(), 0);
       parallel_for(loose_.size(), 1024, [&](std::size_t v) {
         if (!free[v]) return;
@@ -107,8 +68,8 @@ class PlateCloser {
       const Marks again = loose_around(touches);
       if (!any_marked(again)) break;
       for (std::size_t v = 0; v < free.size(); ++v) {
-        contact_[v] |= touches[v];
-        free[v] = again[v] && !contact_[v] ? 1 : 0;
+        contact[v] |= touches[v];
+        free[v] = again[v] && !contact[v] ? 1 : 0;
       }
     }
     return {};
@@ -181,23 +142,6 @@ class PlateCloser {
     return 1.0f;
   }
 
-  /// Smooths the steps of a voxel where the plate touches observed space.
-  void even_contacts() {
-    std::vector<std::uint32_t> touching;
-    for (std::uint32_t v = 0; v < contact_.size(); ++v)
-      if (contact_[v]) touching.push_back(v);
-    std::vector<Vec3f> next(touching.size());
-    for (int round = 0; round < kContactRounds; ++round) {
-      parallel_for(touching.size(), 1024, [&](std::size_t k) {
-        const std::uint32_t v = touching[k];
-        const Vec3f mean = neighbours_.mean(mesh_.vertices, v, Vec3f(Vec3f::Zero()));
-        next[k] = 0.5f * (mesh_.vertices[v] + mean);
-        if (closing_.stands(next[k])) next[k] = mesh_.vertices[v];
-      });
-      for (std::size_t k = 0; k < touching.size(); ++k) mesh_.vertices[touching[k]] = next[k];
-    }
-  }
-
   Marks crossing(const Marks& before) const {
     return crossing_vertices(mesh_, before, triangles_at(mesh_, loose_));
   }
@@ -226,9 +170,7 @@ class PlateCloser {
   const PlateClosing& closing_;
   const RunContext& context_;
   MeshNeighbours neighbours_;
-  Marks loose_;              ///< may move
-  std::vector<float> hold_;  ///< stiffness of its attachment to its start position; 0 = none
-  Marks contact_;            ///< fixed at the border of observed space
+  Marks loose_;                       ///< may move
   std::vector<std::uint32_t> rests_;  ///< placed on the platter
 };
 

@@ -26,16 +26,12 @@ struct VertexKernelView {
 inline constexpr std::size_t kVertexRow = 64;
 struct VertexColumns {
   const float *x, *y, *z, *nx, *ny, *nz;
-  const float* spread;  ///< squared ratio of the measurements' scatter here to the noise
 };
-/// Sums over views: of weights, of weight times distance along the vertex's normal, and of the
-/// weights of measurements within kNear standard deviations of the noise.
+/// Sums over views: of weights, and of weight times distance along the vertex's normal.
 struct VertexSums {
   float* weight;
   float* offset;
-  float* near;
 };
-inline constexpr float kNear = 1.5f;
 struct VertexKernelScale {
   float inverse_reach2;  ///< of the kernel across the normal
   float noise;           ///< of a depth along its ray

@@ -93,8 +93,6 @@ void add_view(const VertexKernelView& f, const VertexColumns& in, std::size_t be
     look_up(f, perspective, row);
     float* weight = sums.weight + base;
     float* offset = sums.offset + base;
-    float* near = sums.near + base;
-    const float* spread2 = in.spread + base;
     for (std::size_t i = 0; i < kRow; ++i) {
       const float depth = row.raw[i] * unit + bias;
       // The pixel's own ray: the vertex's, moved by the rest of the rounding.
@@ -113,14 +111,12 @@ void add_view(const VertexKernelView& f, const VertexColumns& in, std::size_t be
       const float across2 = px * px + py * py + tilt * tilt;
       const float k = larger(0.0f, 1.0f - across2 * scale.inverse_reach2);
       const float variance = noise2 * cosine * cosine + floor2;
-      const float off2 = h * h / variance;
-      const float t = larger(0.0f, 1.0f - off2 / spread2[i] * inverse_cut2);
+      const float t = larger(0.0f, 1.0f - h * h / variance * inverse_cut2);
       const float seen = row.raw[i] > 0.0f ? cosine : 0.0f;
       const float facing = cosine > scale.facing ? seen : 0.0f;
       const float w = facing * (1.0f - less * row.edge[i]) * k * k * t * t;
       weight[i] += w;
       offset[i] += w * h;
-      near[i] += off2 < kNear * kNear ? w : 0.0f;
     }
   }
 }

@@ -72,8 +72,7 @@ VertexObserver::VertexObserver(const TriangleMesh& mesh)
 std::size_t VertexObserver::blocks() const { return (order_.size() + kBlock - 1) / kBlock; }
 
 void VertexObserver::set_vertices(const std::vector<Vec3f>& positions,
-                                  const std::vector<Vec3f>& normals,
-                                  const std::vector<float>& spread) {
+                                  const std::vector<Vec3f>& normals) {
   for (auto& column : columns_) column.assign(pad(order_.size()), 1.0f);
   parallel_for(order_.size(), 4096, [&](std::size_t i) {
     const std::uint32_t v = order_[i];
@@ -81,18 +80,16 @@ void VertexObserver::set_vertices(const std::vector<Vec3f>& positions,
       columns_[std::size_t(a)][i] = positions[v][a];
       columns_[std::size_t(a + 3)][i] = normals[v][a];
     }
-    if (!spread.empty()) columns_[6][i] = spread[v];
   });
 }
 
-Result<VertexObservations> VertexObserver::observe(std::span<const views::DepthView> views,
+Result<VertexMeasurements> VertexObserver::observe(std::span<const views::DepthView> views,
                                                    std::span<const std::size_t> chosen,
                                                    const MeshFitScale& scale,
                                                    const RunContext& context) const {
   const std::size_t n = order_.size();
   const VertexColumns columns{columns_[0].data(), columns_[1].data(), columns_[2].data(),
-                              columns_[3].data(), columns_[4].data(), columns_[5].data(),
-                              columns_[6].data()};
+                              columns_[3].data(), columns_[4].data(), columns_[5].data()};
   const VertexKernelScale how{float(1.0 / (scale.reach_m * scale.reach_m)),
                               float(scale.noise_m),
                               float(scale.floor_m),
@@ -101,11 +98,11 @@ Result<VertexObservations> VertexObserver::observe(std::span<const views::DepthV
                               scale.edge_weight};
   std::vector<VertexKernelView> kernels;
   for (const std::size_t v : chosen) kernels.push_back(kernel_view(views[v]));
-  std::vector<float> weight(pad(n), 0.0f), offset(pad(n), 0.0f), near(pad(n), 0.0f);
+  std::vector<float> weight(pad(n), 0.0f), offset(pad(n), 0.0f);
   TURNSCAN_TRY(parallel_for(blocks(), 1, context, [&](std::size_t b) {
     const std::size_t begin = b * kBlock, end = std::min(n, begin + kBlock);
     const Patch around = patch(begin, end);
-    VertexSums sums{weight.data(), offset.data(), near.data()};
+    VertexSums sums{weight.data(), offset.data()};
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       const views::DepthView& view = views[chosen[k]];
       if (turned_away(view, around) || outside_window(view, around)) continue;
@@ -113,12 +110,10 @@ Result<VertexObservations> VertexObserver::observe(std::span<const views::DepthV
     }
     context.advance();
   }));
-  VertexObservations out;
-  for (auto* sums : {&out.measured.support, &out.measured.offset, &out.near}) sums->resize(n);
+  VertexMeasurements out{std::vector<float>(n), std::vector<float>(n)};
   for (std::size_t i = 0; i < n; ++i) {
-    out.measured.support[order_[i]] = weight[i];
-    out.measured.offset[order_[i]] = offset[i];
-    out.near[order_[i]] = near[i];
+    out.support[order_[i]] = weight[i];
+    out.offset[order_[i]] = offset[i];
   }
   return out;
 }

@@ -6,12 +6,6 @@
 
 namespace turnscan::mesh_refinement {
 
-/// Sums over views, per vertex, as in VertexSums.
-struct VertexObservations {
-  VertexMeasurements measured;
-  std::vector<float> near;
-};
-
 /// Projects vertices into views and sums the measurements there, on all cores. Vertices with
 /// similar normals are processed together, so that views which see none of them are skipped.
 class VertexObserver {
@@ -21,12 +15,11 @@ class VertexObserver {
   /// Number of calls of context.advance() by observe().
   std::size_t blocks() const;
 
-  /// Sets the current positions. spread: squared, as VertexColumns::spread; empty: 1.
-  void set_vertices(const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals,
-                    const std::vector<float>& spread);
+  /// Sets the current positions.
+  void set_vertices(const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals);
 
   /// Sums over the chosen views. Fails with kCancelled.
-  Result<VertexObservations> observe(std::span<const views::DepthView> views,
+  Result<VertexMeasurements> observe(std::span<const views::DepthView> views,
                                      std::span<const std::size_t> chosen, const MeshFitScale& scale,
                                      const RunContext& context) const;
 
@@ -41,7 +34,7 @@ class VertexObserver {
   static bool outside_window(const views::DepthView& view, const Patch& patch);
 
   std::vector<std::uint32_t> order_;  ///< vertex of each index in the columns
-  std::array<std::vector<float>, 7> columns_;
+  std::array<std::vector<float>, 6> columns_;
 };
 
 }  // namespace turnscan::mesh_refinement

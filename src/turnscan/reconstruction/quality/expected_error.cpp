@@ -18,8 +18,6 @@ namespace {
 constexpr double kNoiseShare = 0.22, kHiddenShare = 0.4;
 constexpr double kFitBlur = 0.52, kFilteredBlur = 0.5;
 constexpr double kMixedShare = 0.65;
-/// Exponent of a fit's relative stiffness.
-constexpr double kMoreBlur = 0.44;
 /// Behind a filter, relative to the distance between pixels, at walls thinner than two of them.
 constexpr double kThinShare = 0.17, kThinPixels = 2.0;
 
@@ -59,11 +57,10 @@ double bending_at(const TriangleMesh& mesh, const std::vector<Vec3f>& normals,
 }
 
 /// Factor from a bend, as an angle per length, to the distance that is lost.
-double blurring_window_m2(const ErrorScale& scale, double stiffer) {
+double blurring_window_m2(const ErrorScale& scale) {
   if (scale.filtered) return kFilteredBlur * scale.spacing_m * scale.spacing_m;
   // Bends beyond the noise are creases, which the fit spares: less noise reveals finer detail.
-  return kFitBlur * std::pow(stiffer, kMoreBlur) * scale.edge_m * scale.edge_m *
-         std::sqrt(scale.noise_m / scale.spacing_m);
+  return kFitBlur * scale.edge_m * scale.edge_m * std::sqrt(scale.noise_m / scale.spacing_m);
 }
 
 }  // namespace
@@ -74,12 +71,10 @@ std::vector<float> expected_errors(const TriangleMesh& mesh, const std::vector<f
   const auto normals = vertex_normals(mesh);
   const auto way = way_to_measured(mesh, beside, support);
   const double typical = mesh_refinement::typical_support(support);
-  const double stiffer = mesh_refinement::stiffening(scale.noise_m, 1.0, scale.spacing_m,
-                                                     scale.edge_m, float(typical));
   const double noise_share = scale.noise_share.value_or(kNoiseShare);
   std::optional<ThinWalls> walls;
   if (scale.filtered) walls.emplace(mesh, normals);
-  const double window_m2 = blurring_window_m2(scale, stiffer);
+  const double window_m2 = blurring_window_m2(scale);
   std::vector<float> out(mesh.vertices.size());
   parallel_for(out.size(), 1024, [&](std::size_t v) {
     const double bend = bending_at(mesh, normals, beside, std::uint32_t(v));

@@ -1,4 +1,3 @@
-#include <turnscan/reconstruction/tsdf/mixed_pixel_surface.hpp>
 #include <turnscan/reconstruction/tsdf/no_return_hull.hpp>
 #include <turnscan/reconstruction/tsdf/surface_extraction.hpp>
 
@@ -44,8 +43,6 @@ Result<ExtractedSurface> extract_surface(const Integrator& integrator, const Vol
   if (scale.floor_m) box.min.y() = -0.25 * scale.cell_m;  // the lowest layer is at -0.5
   TURNSCAN_ASSIGN(Volume volume, timed(times, "distances",
                                        [&] { return integrator.extract_volume(box, context); }));
-  TURNSCAN_TRY(
-      timed(times, "distances", [&] { return forget_doubtful_surface(volume, views, context); }));
   TURNSCAN_ASSIGN(const SampleBits hull, timed(times, "no return", [&] {
                     return no_return_hull(volume, views, context);
                   }));

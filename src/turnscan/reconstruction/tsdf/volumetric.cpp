@@ -210,7 +210,6 @@ class VolumetricReconstruction {
     const VolumeScale& volume = scale_.volume;
     MeshFitScale scale;
     scale.noise_m = input_.noise_m;
-    scale.correlation = 1.0 / estimation::noise_left_by_filter(filter_share_.value_or(0.0));
     scale.spacing_m = input_.spacing_m;
     scale.edge_m = volume.cell_m;
     scale.reach_m = scale_.fit_reach_m;
