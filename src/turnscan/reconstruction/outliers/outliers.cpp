@@ -4,6 +4,7 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/outliers/outliers.hpp>
+#include <turnscan/reconstruction/outliers/view_grid.hpp>
 
 namespace turnscan::outliers {
 
@@ -42,21 +43,43 @@ std::vector<std::uint8_t> find_heaped(std::span<const Vec3f> points, int k) {
   return heaped;
 }
 
+/// Squared distances to the nearest of points.
+class Neighbours {
+ public:
+  Neighbours(std::span<const Vec3f> points, int k)
+      : points_(points), view_(ViewGrid::build(points)) {
+    if (view_) return;
+    tree_ = KdTree(points);
+    heaped_ = find_heaped(points, k);
+  }
+
+  /// Those of as many points as index, which is scratch, has room for, ascending. Returns their
+  /// number; 0 for a point that shares its place with more than k others.
+  std::size_t of(std::size_t i, std::span<std::uint32_t> index, float* squared) const {
+    if (view_) return view_->nearest(points_[i], index.size(), squared);
+    return heaped_[i] != 0 ? 0 : tree_.knn(points_[i], index.size(), index.data(), squared);
+  }
+
+ private:
+  std::span<const Vec3f> points_;
+  std::optional<ViewGrid> view_;
+  KdTree tree_;
+  std::vector<std::uint8_t> heaped_;
+};
+
 /// Per point the sum of the roots in double and ascending, rounded once, as PCL does. The nearest
 /// point, which is the point itself or one at the same place, does not count.
 Result<std::vector<float>> mean_distances(std::span<const Vec3f> points, int k,
                                           const RunContext& context) {
   constexpr std::size_t kChunk = 512;
-  const KdTree tree(points);
-  const std::vector<std::uint8_t> heaped = find_heaped(points, k);
+  const Neighbours neighbours(points, k);
   std::vector<float> mean(points.size());
   const auto chunk_means = [&](std::size_t chunk) {
     std::vector<std::uint32_t> index(std::size_t(k) + 1);
     std::vector<float> squared(index.size());
     const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
-      if (heaped[i] != 0) continue;
-      const std::size_t found = tree.knn(points[i], index.size(), index.data(), squared.data());
+      const std::size_t found = neighbours.of(i, index, squared.data());
       double sum = 0.0;
       for (std::size_t j = 1; j < found; ++j) sum += std::sqrt(double(squared[j]));
       mean[i] = static_cast<float>(sum / k);
