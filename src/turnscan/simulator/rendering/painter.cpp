@@ -13,6 +13,7 @@ namespace {
 constexpr int kSamplesPerSide = 2;
 constexpr int kSamples = kSamplesPerSide * kSamplesPerSide;
 constexpr std::size_t kKeyRays = 2;    // per sample
+constexpr std::size_t kPacket = 16;    // rays that the scene traces together
 constexpr float kLightRadius = 0.05f;  // of the key light's disc at distance 1: soft shadows
 constexpr float kGroundBounce = 0.6f;  // light from below, relative to the sky's
 const Vec3f kKeyColor(0.80f, 0.77f, 0.72f);
@@ -73,20 +74,22 @@ struct Light {
 
 class Painter {
  public:
-  Painter(const Scene& scene, const PictureOptions& options,
-          const std::vector<PictureSurface>& surfaces)
-      : scene_(scene), options_(options), surfaces_(surfaces) {
-    const Box& box = scene.object_box();
+  Painter(const Subject& subject, const PictureOptions& options, const RunContext& context)
+      : scene_(subject.scene), options_(options), surfaces_(subject.surfaces), context_(context) {
+    const Box& box = scene_.object_box();
     scale_ = static_cast<float>(box.size().norm());
     ground_y_ = static_cast<float>(box.min.y());
   }
 
-  /// One row of the view's pixels, from the left.
+  /// One row of the view's pixels, from the left. Incomplete once the context is cancelled.
   void paint_row(const PictureCamera& camera, const Vec3f& to_light, int view, int row,
                  std::span<Rgb> out) const {
     std::vector<Ray> rays = rays_of_row(camera, row);
     std::vector<RayHit> hits(rays.size());
-    scene_.intersect(rays, hits, RayOrder::kCoherent);
+    in_packets(rays.size(), [&](std::size_t i, std::size_t n) {
+      scene_.intersect(std::span(rays).subspan(i, n), std::span(hits).subspan(i, n),
+                       RayOrder::kCoherent);
+    });
     std::vector<Vec3f> sums(out.size(), Vec3f::Zero());
     std::vector<Spot> spots;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -107,6 +110,13 @@ class Painter {
   }
 
  private:
+  /// Among millions of slivers, as of a face with as many corners, a packet takes milliseconds.
+  template <class Trace>
+  void in_packets(std::size_t rays, const Trace& trace) const {
+    for (std::size_t i = 0; i < rays && !context_.cancelled(); i += kPacket)
+      trace(i, std::min(kPacket, rays - i));
+  }
+
   std::vector<Ray> rays_of_row(const PictureCamera& camera, int row) const {
     std::vector<Ray> rays;
     rays.reserve(std::size_t(options_.width) * kSamples);
@@ -161,7 +171,10 @@ class Painter {
       const Eigen::Vector2f d = kLightRadius * spread_point(spot, i % kKeyRays, kKeyRays, 1);
       rays[i] = {spot.position, to_light + d.x() * a + d.y() * b};
     }
-    scene_.occluded(rays, blocked, RayOrder::kCoherent);
+    in_packets(rays.size(), [&](std::size_t i, std::size_t n) {
+      scene_.occluded(std::span(rays).subspan(i, n), std::span(blocked).subspan(i, n),
+                      RayOrder::kCoherent);
+    });
     for (std::size_t i = 0; i < rays.size(); ++i)
       lights[i / kKeyRays].key += blocked[i] ? 0.0f : 1.0f / kKeyRays;
     add_sky(spots, lights);
@@ -173,7 +186,7 @@ class Painter {
     const auto all = static_cast<std::size_t>(options_.ambient_samples);
     std::vector<Ray> rays(all);
     std::vector<std::uint8_t> blocked(all);
-    for (std::size_t i = 0; i < spots.size(); ++i) {
+    for (std::size_t i = 0; i < spots.size() && !context_.cancelled(); ++i) {
       // The floor covers most of the picture and has little detail.
       const std::size_t n = spots[i].ground ? (all + 1) / 2 : all;
       const auto [a, b] = tangents(spots[i].normal);
@@ -205,6 +218,7 @@ class Painter {
   const Scene& scene_;
   const PictureOptions& options_;
   const std::vector<PictureSurface>& surfaces_;
+  const RunContext& context_;
   float scale_ = 1.0f;
   float ground_y_ = 0.0f;
 };
@@ -234,7 +248,7 @@ Vec3f light_for(double azimuth_rad) {
 
 void paint_view(const Subject& subject, const PictureOptions& options, const ViewSetup& setup,
                 int view, std::size_t first_column, ColorImage& image, const RunContext& context) {
-  const Painter painter(subject.scene, options, subject.surfaces);
+  const Painter painter(subject, options, context);
   parallel_for(std::size_t(image.height), 1, [&](std::size_t row) {
     if (context.cancelled()) return;
     const std::size_t first = row * std::size_t(image.width) + first_column;
