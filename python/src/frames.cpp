@@ -25,9 +25,10 @@ py::object matrix_of(const std::optional<Pose>& pose) {
 
 std::optional<Pose> pose_of(const py::object& matrix) {
   if (matrix.is_none()) return std::nullopt;
-  const auto array = packed<double>(py::array(matrix), "pose");
-  if (array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4)
+  const py::array given(matrix);
+  if (given.ndim() != 2 || given.shape(0) != 4 || given.shape(1) != 4)
     raise({ErrorCode::kFormat, "pose: a matrix of four rows of four is needed", ""});
+  const auto array = packed<double>(given, "pose");
   Eigen::Matrix4d values;
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) values(row, column) = array.at(row, column);

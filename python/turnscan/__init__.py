@@ -61,6 +61,8 @@ def _raw_depth(depth, unit, camera):
 def _sequence(frames):
     if isinstance(frames, (str, _os.PathLike)):
         return Recording(_os.fspath(frames))
+    if not isinstance(frames, Sequence):
+        raise TypeError(f"a recording is a path or a sequence of frames, not {type(frames).__name__}")
     return frames
 
 
@@ -158,4 +160,7 @@ def batch(inputs, out, *, command="", sweep=(), engine=(), program="turnscan", p
 def options(command):
     """Names, defaults, ranges and help of the options of "reconstruct", "calibrate", "simulate",
     "plan", "evaluate", "import"."""
-    return getattr(_turnscan, f"_{command}_options")()
+    described = getattr(_turnscan, f"_{command}_options", None)
+    if described is None:
+        raise OptionError(f"command: there are no options of '{command}'", "invalid-option")
+    return described()

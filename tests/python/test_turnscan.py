@@ -169,6 +169,7 @@ class Reconstructing(InAFolder):
                 ("angle", {"angle": math.nan}), ("angle", {"angle": math.inf}),
                 ("time", {"time": math.inf}), ("sensor", {"sensor": 1}), ("sensor", {"sensor": -1}),
                 ("pose", {"pose": np.full((4, 4), np.nan)}), ("pose", {"pose": np.eye(3)}),
+                ("pose", {"pose": np.broadcast_to(1.0, (1, 1 << 40))}),
                 ("pose", {"pose": np.eye(4) * 1j}), ("pose", {"pose": np.eye(4).astype(str)}),
                 ("color", {"color": np.zeros((2, 2, 3), np.uint8)}),
                 ("color", {"color": np.full((6, 8, 3), 300)}),
@@ -181,6 +182,12 @@ class Reconstructing(InAFolder):
             self.refused("depth_unit", turnscan.Stream, depth_unit=unit)
         for axis in ((0, 0, 0), (math.nan, 0, 1), (math.inf, 0, 0)):
             self.refused("axis", turnscan.Turntable, axis, (0, 0, 0))
+
+    def test_what_is_no_recording_is_refused(self):
+        self.refused("no options", turnscan.options, "nonsense")
+        for wrong in (None, (), 0, object()):
+            self.refused("sequence of frames", turnscan.calibrate, wrong)
+            self.refused("sequence of frames", turnscan.reconstruct, [wrong])
 
     def test_meshes_of_any_layout_are_read_and_what_numpy_would_cast_silently_is_refused(self):
         vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
