@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <turnscan/io/mesh/mesh_formats.hpp>
 #include <turnscan/io/text/number_text.hpp>
+#include <unordered_map>
 
 namespace turnscan::mesh_io {
 
@@ -102,9 +104,9 @@ class ObjReader {
 
   void use_material(std::string name) {
     auto& all = content_.materials;
-    const auto same = std::find(all.begin(), all.end(), name);
-    material_ = static_cast<std::uint32_t>(same - all.begin());
-    if (same == all.end()) all.push_back(std::move(name));
+    const auto [known, fresh] = number_of_.try_emplace(name, std::uint32_t(all.size()));
+    material_ = known->second;
+    if (fresh) all.push_back(std::move(name));
   }
 
   const char* face() {
@@ -156,6 +158,7 @@ class ObjReader {
   text::TextCursor cursor_;
   ObjContent content_;
   std::vector<std::uint32_t> polygon_, polygon_uvs_;
+  std::unordered_map<std::string, std::uint32_t> number_of_{{"", 0}};  ///< of each material
   std::uint32_t material_ = 0;
 };
 
