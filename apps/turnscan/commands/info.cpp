@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
 #include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/io/cloud/cloud_io.hpp>
@@ -50,16 +54,27 @@ class InfoCommand : public Command {
     if (!unit_.empty()) {
       TURNSCAN_ASSIGN(metres_per_unit_, metres_per(unit_));
     }
-    if (ending_of(path_) == ".pcd") return about_cloud(session);
+    if (one_of(kClouds)) return about_cloud(session);
     auto meshes = read_meshes(path, {metres_per_unit_}, session.context());
     // A PLY file without triangles is a cloud.
     if (!meshes && meshes.error().code == ErrorCode::kTooFewPoints && ending_of(path_) == ".ply")
       return about_cloud(session);
+    // What is no mesh may hold data that has to be unpacked or converted: import says how.
+    if (!meshes && meshes.error().code == ErrorCode::kUnsupported && !one_of(kMeshes))
+      return about_recording(path, session);
     if (!meshes) return tl::unexpected<Error>(meshes.error());
     return about_meshes(*meshes, session);
   }
 
  private:
+  static constexpr std::array<std::string_view, 4> kClouds{".pcd", ".xyz", ".asc", ".pts"};
+  static constexpr std::array<std::string_view, 7> kMeshes{".ply", ".stl", ".obj", ".off",
+                                                           ".3mf", ".glb", ".gltf"};
+
+  bool one_of(std::span<const std::string_view> endings) const {
+    return std::find(endings.begin(), endings.end(), ending_of(path_)) != endings.end();
+  }
+
   static Result<> repair(const std::filesystem::path& folder, Session& session) {
     TURNSCAN_ASSIGN(const RepairReport report, repair_recording(folder));
     for (const std::string& text : report.done) session.print("Repair: {}\n", text);

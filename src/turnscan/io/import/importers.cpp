@@ -229,8 +229,8 @@ Result<ImportFormat> recognise(const fs::path& path, const ImportOptions& option
                    "'turnscan info', 'turnscan evaluate' or 'turnscan render'");
   TURNSCAN_ASSIGN(const std::string found, what_is_there(path));
   return fail_at(path.string(), ErrorCode::kUnsupported,
-                 "{}, which is neither a recording nor a layout that can be imported; 'turnscan "
-                 "import --list' shows the layouts",
+                 "{}, which is neither a recording nor a mesh, nor a layout that can be imported; "
+                 "'turnscan import --list' shows the layouts",
                  found);
 }
 
