@@ -468,6 +468,8 @@ class Kill(harness.TestCase):
 
 class Turntable(harness.TestCase):
     FAST = ("--motor-boot", "50ms", "--motor-timeout", "400ms")
+    # The simulated board may wait for the processor where other programs want it, too.
+    PATIENT = ("--motor-boot", "50ms", "--motor-timeout", "10s")
 
     def table(self, fault=None):
         table = Table(fault)
@@ -539,7 +541,7 @@ class Turntable(harness.TestCase):
         device = (f"virtual:doll?sensor={SENSOR}&calibration=true&fps=30&speed=150deg/s"
                   f"&noise=gaussian:1mm&serial={serial}{more_of_device}")
         return ("capture", "--device", device, "--motor", table.port, "--speed", "90deg/s", *TIMED,
-                "--stops", stops, "--stop-frames", "1", "--settle", "0s", *self.FAST, *more)
+                "--stops", stops, "--stop-frames", "1", "--settle", "0s", *self.PATIENT, *more)
 
     def end_at(self, frames, signal_number, *args):
         """Ends the capture into the recording r as soon as it has so many frames."""
