@@ -333,7 +333,7 @@ class OutOfProportion(harness.TestCase):
     def put_bag(self, *records):
         self.put("a.bag", b"#ROSBAG V2.0\n", *records)
 
-    def cheap(self, *args, says=None):
+    def cheap(self, *args, says=None, seconds=MOST_S):
         """Neither much time nor memory, helpers included."""
         process = start("info", *args, "--quiet", cwd=self.dir, stdout=subprocess.DEVNULL)
         err = process.stderr.read()
@@ -346,7 +346,7 @@ class OutOfProportion(harness.TestCase):
             self.assertEqual(process.returncode, FAILED, err)
             self.assert_one_line_error(err)
             self.assertIn(says, err)
-        self.assertLess(used.ru_utime + used.ru_stime, self.MOST_S)
+        self.assertLess(used.ru_utime + used.ru_stime, seconds)
         self.assertLess(used.ru_maxrss / 1000, self.MOST_MB)
 
     def test_chunks_of_a_bag_that_unpack_to_gigabytes(self):
@@ -391,6 +391,21 @@ class OutOfProportion(harness.TestCase):
             for name in entries:
                 file.writestr(name, "x")
 
+    def test_depth_and_colours_with_pixels_without_number(self):
+        (self.dir / "depth").mkdir()
+        options = ("--import", "intrinsics=500,500,8,6", "--import", "depth-unit=1mm", "--import", "fps=10")
+        for width, cheap in ((4096, {}), (8192, {"says": "at most 12582912"})):
+            image = png16(width, 3072, 1000)
+            for i in range(8):
+                (self.dir / f"depth/{i}.png").write_bytes(image)
+            self.cheap("depth", *options, seconds=20.0, **cheap)
+
+    def test_attributes_of_an_image_without_number(self):
+        (self.dir / "depth").mkdir()
+        head = b"".join(b"k%d\0string\0" % k + self.number(1) + b"x" for k in range(100000))
+        self.put("depth/0.exr", b"\x76\x2f\x31\x01", self.number(2), head, b"\0")
+        self.cheap("depth", "--import", "intrinsics=500,500,8,6", says="far too long")
+
     def test_a_phone_with_pixels_without_number(self):
         self.put_r3d(8192)
         self.cheap("a.r3d", says="a phone's have at most")
@@ -426,6 +441,11 @@ class OutOfProportion(harness.TestCase):
         (self.dir / "a.mtl").write_text("newmtl m\nmap_Kd p.png\n" * 30000)
         (self.dir / "a.obj").write_text("mtllib a.mtl\nmtllib ./a.mtl\n" * 20000 +
                                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.cheap("a.obj")
+
+    def test_materials_without_number(self):
+        (self.dir / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n" +
+                                          "".join(f"usemtl m{k}\n" for k in range(200000)) + "f 1 2 3\n")
         self.cheap("a.obj")
 
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <turnscan/io/file/decode_file.hpp>
 #include <turnscan/io/image/file_numbers.hpp>
+#include <turnscan/io/image/frame_size.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/image/png_codec.hpp>
 #include <turnscan/io/text/text_fields.hpp>
@@ -22,10 +23,7 @@ constexpr std::string_view kNpyMagic("\x93NUMPY", 6);
 
 Result<> check_depth_size(std::uint64_t width, std::uint64_t height, std::uint64_t value_bytes,
                           std::uint64_t bytes) {
-  if (width < 1 || height < 1 || width > 65535 || height > 65535 ||
-      width * height > kMaxImagePixels)
-    return fail(ErrorCode::kResourceLimit, "the image has {} x {} pixels: at most {} are allowed",
-                width, height, kMaxImagePixels);
+  TURNSCAN_TRY(image::check_pixels(width, height, image::kMaxDepthPixels));
   if (width * height * value_bytes > bytes)
     return fail(ErrorCode::kFormat, "damaged image: {} bytes cannot hold {} x {} values", bytes,
                 width, height);

@@ -5,9 +5,10 @@
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <turnscan/io/image/file_numbers.hpp>
-#include <turnscan/io/image/image_io.hpp>
+#include <turnscan/io/image/frame_size.hpp>
 
 namespace turnscan::image {
 
@@ -33,8 +34,13 @@ std::int64_t exr_size(exr_const_context_t, void* user) {
   return std::int64_t(static_cast<std::string_view*>(user)->size());
 }
 
+/// OpenEXR looks at all attributes before it adds one: a hundred thousand would take minutes.
+constexpr int kMaxHeaderBlocks = 10000;
+thread_local int header_blocks_left = 0;
+
 void* allocate_at_most(std::size_t size) {
-  return size > kMaxImagePixels * sizeof(double) ? nullptr : std::malloc(size);
+  if (size > kMaxDepthPixels * sizeof(double) || header_blocks_left-- <= 0) return nullptr;
+  return std::malloc(size);
 }
 
 /// A file that is being read, and the steps that unpack its rows.
@@ -101,10 +107,8 @@ Result<NumberImage> exr_header(exr_const_context_t context, const exr_attr_chlis
   exr_get_display_window(context, 0, &shown);
   const std::int64_t width = std::int64_t(data.max.x) - data.min.x + 1;
   const std::int64_t height = std::int64_t(data.max.y) - data.min.y + 1;
-  if (width < 1 || height < 1 || width > 65535 || height > 65535 ||
-      std::uint64_t(width * height) > kMaxImagePixels)
-    return fail(ErrorCode::kResourceLimit, "the image has {} x {} pixels: at most {} are allowed",
-                width, height, kMaxImagePixels);
+  // A width below 1 becomes one that is too large.
+  TURNSCAN_TRY(check_pixels(std::uint64_t(width), std::uint64_t(height), kMaxDepthPixels));
   if (std::memcmp(&data, &shown, sizeof(data)) != 0)
     return fail(ErrorCode::kUnsupported,
                 "this EXR holds a part of its image only (data window and display window differ); "
@@ -156,8 +160,12 @@ Result<FileNumbers> decode_exr_numbers(std::string_view bytes) {
   how.size_fn = exr_size;
   how.flags = EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE;
   ExrReader reader;
-  if (exr_start_read(&reader.context, "depth", &how) != EXR_ERR_SUCCESS)
-    return fail(ErrorCode::kFormat, "damaged EXR image: its header is cut off or invalid");
+  header_blocks_left = kMaxHeaderBlocks;
+  // What cannot be kept is left out, without a word.
+  if (exr_start_read(&reader.context, "depth", &how) != EXR_ERR_SUCCESS || header_blocks_left <= 0)
+    return fail(ErrorCode::kFormat,
+                "damaged EXR image: its header is cut off, invalid or far too long");
+  header_blocks_left = std::numeric_limits<int>::max();
   TURNSCAN_ASSIGN(const exr_attr_chlist_entry_t* channel, depth_channel(reader.context));
   FileNumbers out;
   std::int64_t top = 0;

@@ -3,6 +3,7 @@
 #include <turnscan/io/image/image_io.hpp>
 
 #include <turnscan/io/file/decode_file.hpp>
+#include <turnscan/io/image/frame_size.hpp>
 #include <turnscan/io/image/jpeg_codec.hpp>
 #include <turnscan/io/image/png_codec.hpp>
 
@@ -47,6 +48,15 @@ Result<> write_encoded(const std::filesystem::path& path, Result<std::string> en
   return write_file_atomically(path, std::string_view(*encoded), durability);
 }
 
+Result<ColorImage> decode_color_of(std::string_view bytes, std::uint64_t most_pixels) {
+  if (image::looks_like_jpeg(bytes)) return image::decode_jpeg(bytes, most_pixels);
+  if (!image::looks_like_png(bytes))
+    return fail(ErrorCode::kUnsupported, "neither a PNG nor a JPEG image");
+  TURNSCAN_ASSIGN(const auto info, image::read_png_info(bytes));
+  TURNSCAN_TRY(image::check_pixels(info.width, info.height, most_pixels));
+  return decode_png_as<Rgb>(bytes, info, image::PngPixels::kRgb8);
+}
+
 }  // namespace
 
 Result<DepthImage> decode_depth_png(std::string_view bytes) {
@@ -56,6 +66,7 @@ Result<DepthImage> decode_depth_png(std::string_view bytes) {
                 "a depth image must be a 16-bit grey PNG: this one is {}-bit {}; it may be a "
                 "picture of depth rather than depth",
                 info.bit_depth, kind_name(info));
+  TURNSCAN_TRY(image::check_pixels(info.width, info.height, image::kMaxDepthPixels));
   return decode_png_as<std::uint16_t>(bytes, info, image::PngPixels::kDepth16);
 }
 
@@ -82,19 +93,17 @@ Result<> write_grey_png(const std::filesystem::path& path, const Image<std::uint
 }
 
 Result<ColorImage> decode_color(std::string_view bytes) {
-  if (image::looks_like_jpeg(bytes)) return image::decode_jpeg(bytes);
-  if (!image::looks_like_png(bytes))
-    return fail(ErrorCode::kUnsupported, "neither a PNG nor a JPEG image");
-  TURNSCAN_ASSIGN(const auto info, image::read_png_info(bytes));
-  return decode_png_as<Rgb>(bytes, info, image::PngPixels::kRgb8);
+  return decode_color_of(bytes, kMaxImagePixels);
 }
 
 Result<ColorImage> read_color(const std::filesystem::path& path) {
-  return file::decode_file(path, decode_color);
+  return file::decode_file(path, [](std::string_view bytes) {
+    return decode_color_of(bytes, image::kMaxFrameColorPixels);
+  });
 }
 
 Result<> decode_frame_color(std::string_view bytes, Frame& frame) {
-  TURNSCAN_ASSIGN(frame.color, decode_color(bytes));
+  TURNSCAN_ASSIGN(frame.color, decode_color_of(bytes, image::kMaxFrameColorPixels));
   frame.color_jpeg = image::is_jpeg_file(bytes) ? std::string(bytes) : std::string();
   return {};
 }

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <array>
-#include <turnscan/io/image/image_io.hpp>
+#include <turnscan/io/image/frame_size.hpp>
 
 namespace turnscan::image {
 
@@ -122,11 +122,10 @@ bool write_rgb(Encoder* encoder, const unsigned char* pixels, int width, int hei
   return true;
 }
 
-Result<> check_header(const jpeg_decompress_struct& codec, std::size_t file_bytes) {
+Result<> check_header(const jpeg_decompress_struct& codec, std::size_t file_bytes,
+                      std::uint64_t most) {
   const std::uint64_t pixels = std::uint64_t(codec.image_width) * codec.image_height;
-  if (pixels > kMaxImagePixels)
-    return fail(ErrorCode::kResourceLimit, "the image has {} x {} pixels: at most {} are allowed",
-                codec.image_width, codec.image_height, kMaxImagePixels);
+  TURNSCAN_TRY(check_pixels(codec.image_width, codec.image_height, most));
   if (codec.jpeg_color_space == JCS_CMYK || codec.jpeg_color_space == JCS_YCCK)
     return fail(ErrorCode::kUnsupported, "a CMYK JPEG image; save it as RGB");
   // A block of 8 x 8 pixels takes at least one bit.
@@ -136,13 +135,13 @@ Result<> check_header(const jpeg_decompress_struct& codec, std::size_t file_byte
   return {};
 }
 
-Result<ColorImage> decode(Decoder& decoder, std::string_view bytes) {
+Result<ColorImage> decode(Decoder& decoder, std::string_view bytes, std::uint64_t most) {
   const auto damaged = [&decoder] {
     return fail(ErrorCode::kFormat, "damaged JPEG image: {}", decoder.errors.text.data());
   };
   if (!open(&decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()))
     return damaged();
-  TURNSCAN_TRY(check_header(decoder.codec, bytes.size()));
+  TURNSCAN_TRY(check_header(decoder.codec, bytes.size(), most));
   ColorImage image(static_cast<int>(decoder.codec.image_width),
                    static_cast<int>(decoder.codec.image_height));
   static_assert(sizeof(Rgb) == 3);
@@ -168,9 +167,9 @@ bool is_jpeg_file(std::string_view bytes) {
   return false;
 }
 
-Result<ColorImage> decode_jpeg(std::string_view bytes) {
+Result<ColorImage> decode_jpeg(std::string_view bytes, std::uint64_t most) {
   Decoder decoder{};
-  auto image = decode(decoder, bytes);
+  auto image = decode(decoder, bytes, most);
   jpeg_destroy_decompress(&decoder.codec);
   return image;
 }

@@ -128,10 +128,7 @@ Result<PngInfo> read_png_info(std::string_view bytes) {
   const PngInfo info{big_endian_32(bytes, 16), big_endian_32(bytes, 20), bytes[24], bytes[25]};
   if (info.channels() == 0 || info.width == 0 || info.height == 0)
     return fail(ErrorCode::kFormat, "damaged PNG image: the header is invalid");
-  const std::uint64_t pixels = static_cast<std::uint64_t>(info.width) * info.height;
-  if (std::max(info.width, info.height) > 65535 || pixels > kMaxImagePixels)
-    return fail(ErrorCode::kResourceLimit, "the image has {} x {} pixels: at most {} are allowed",
-                info.width, info.height, kMaxImagePixels);
+  TURNSCAN_TRY(check_pixels(info.width, info.height, kMaxImagePixels));
   if (!can_hold(bytes.size(), info))
     return fail(ErrorCode::kFormat, "damaged PNG image: {} bytes cannot hold {} x {} pixels",
                 bytes.size(), info.width, info.height);

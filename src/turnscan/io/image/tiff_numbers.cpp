@@ -5,7 +5,7 @@
 #include <cstring>
 #include <memory>
 #include <turnscan/io/image/file_numbers.hpp>
-#include <turnscan/io/image/image_io.hpp>
+#include <turnscan/io/image/frame_size.hpp>
 
 namespace turnscan::image {
 
@@ -56,7 +56,7 @@ Tiff open_tiff(Memory& memory) {
       TIFFOpenOptionsAlloc(), &TIFFOpenOptionsFree);
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), say_nothing, nullptr);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), say_nothing, nullptr);
-  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), tmsize_t(kMaxImagePixels * sizeof(double)));
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), tmsize_t(kMaxDepthPixels * sizeof(double)));
   // m: not mapped into memory, O: the tables of strips are read when they are asked for.
   return {TIFFClientOpenExt("depth", "rmO", &memory, read_bytes, write_nothing, seek, close_nothing,
                             size_of, nullptr, nullptr, options.get()),
@@ -93,10 +93,7 @@ Result<NumberImage> header_of(TIFF* tiff, std::size_t file_bytes) {
   if (std::find(kCodecs.begin(), kCodecs.end(), codec) == kCodecs.end())
     return fail(ErrorCode::kUnsupported,
                 "this TIFF is packed by codec {}; save it with LZW, deflate or not packed", codec);
-  if (out.columns < 1 || out.rows < 1 || out.columns > 65535 || out.rows > 65535 ||
-      std::uint64_t(out.columns) * out.rows > kMaxImagePixels)
-    return fail(ErrorCode::kResourceLimit, "the image has {} x {} pixels: at most {} are allowed",
-                out.columns, out.rows, kMaxImagePixels);
+  TURNSCAN_TRY(check_pixels(out.columns, out.rows, kMaxDepthPixels));
   if (std::uint64_t(out.columns) * out.rows * out.value_bytes > kMostPacked * file_bytes)
     return fail(ErrorCode::kFormat, "damaged image: {} bytes cannot hold {} x {} values",
                 file_bytes, out.columns, out.rows);

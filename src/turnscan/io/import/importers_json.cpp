@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMaxViews = 1000000;
+constexpr std::size_t kMaxViews = 100000;
 constexpr std::string_view kDepth = "depth";
 
 /// The lists in the file, each empty or with one entry per view.

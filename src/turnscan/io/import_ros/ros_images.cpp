@@ -3,6 +3,7 @@
 #include <cmath>
 #include <turnscan/io/file/clean_name.hpp>
 #include <turnscan/io/file/load_value.hpp>
+#include <turnscan/io/image/frame_size.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/import_ros/ros_images.hpp>
 
@@ -48,13 +49,10 @@ const Encoding* encoding_of(std::string_view name) {
 }
 
 /// Checks that the rows are within the data.
-Result<> check_rows(const ImageMessage& image, std::uint32_t pixel_bytes) {
+Result<> check_rows(const ImageMessage& image, std::uint32_t pixel_bytes, std::uint64_t most) {
   const std::uint64_t row = std::uint64_t(image.width) * pixel_bytes;
-  const bool sized = image.width > 0 && image.height > 0 && image.width <= 65535 &&
-                     image.height <= 65535 &&
-                     std::uint64_t(image.width) * image.height <= kMaxImagePixels;
-  if (!sized || image.step < row ||
-      std::uint64_t(image.step) * (image.height - 1) + row > image.data.size())
+  TURNSCAN_TRY(turnscan::image::check_pixels(image.width, image.height, most));
+  if (image.step < row || std::uint64_t(image.step) * (image.height - 1) + row > image.data.size())
     return fail(ErrorCode::kFormat,
                 "an image of {} x {} pixels ({}) does not fit its {} bytes; the message is damaged",
                 image.width, image.height, file::clean_name(image.encoding.substr(0, 40)),
@@ -129,7 +127,7 @@ Result<DepthImage> ros_depth(const ImageMessage& image, double unit_m) {
   if (!integers && !is_float_depth(image.encoding))
     return fail(ErrorCode::kUnsupported, "images of encoding '{}' hold no depth that can be read",
                 file::clean_name(image.encoding.substr(0, 40)));
-  TURNSCAN_TRY(check_rows(image, integers ? 2 : 4));
+  TURNSCAN_TRY(check_rows(image, integers ? 2 : 4, turnscan::image::kMaxDepthPixels));
   DepthImage out(int(image.width), int(image.height));
   const auto per_metre = static_cast<float>(1.0 / unit_m);
   for (std::uint32_t r = 0; r < image.height; ++r) {
@@ -182,7 +180,7 @@ Result<ColorImage> ros_color(const ImageMessage& image) {
   if (pairs && image.width % 2 != 0)
     return fail(ErrorCode::kFormat, "an image of encoding '{}' has an odd width; it is damaged",
                 image.encoding);
-  TURNSCAN_TRY(check_rows(image, encoding->bytes));
+  TURNSCAN_TRY(check_rows(image, encoding->bytes, turnscan::image::kMaxFrameColorPixels));
   ColorImage out(int(image.width), int(image.height));
   for (std::uint32_t r = 0; r < image.height; ++r)
     take_color(image.data.data() + std::size_t(r) * image.step, *encoding,

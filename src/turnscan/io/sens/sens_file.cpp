@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <turnscan/io/image/frame_size.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/sens/sens_file.hpp>
 
@@ -41,12 +42,12 @@ T value_at(std::string_view bytes, std::size_t at) {
 
 bool good_sizes(const Header& h) {
   const auto side = [](std::uint32_t s) { return s >= 1 && s <= kMaxSide; };
-  const auto few = [](std::uint32_t width, std::uint32_t height) {
-    return std::uint64_t(width) * height <= kMaxImagePixels;
+  const auto few = [](std::uint32_t width, std::uint32_t height, std::uint64_t most) {
+    return std::uint64_t(width) * height <= most;
   };
-  return few(h.depth_width, h.depth_height) && few(h.color_width, h.color_height) &&
-         side(h.depth_width) && side(h.depth_height) && h.color_width <= kMaxSide &&
-         h.color_height <= kMaxSide;
+  return few(h.depth_width, h.depth_height, image::kMaxDepthPixels) &&
+         few(h.color_width, h.color_height, image::kMaxFrameColorPixels) && side(h.depth_width) &&
+         side(h.depth_height) && h.color_width <= kMaxSide && h.color_height <= kMaxSide;
 }
 
 /// The header, and the position of the first frame.

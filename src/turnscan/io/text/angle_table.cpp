@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kMaxSensor = 63;
 constexpr std::uint32_t kMaxPass = 1000000;
-constexpr std::size_t kMaxTableRows = 1000000;
+constexpr std::size_t kMaxTableRows = 100000;
 
 struct TableUnit {
   std::string_view name;

@@ -21,6 +21,7 @@ constexpr std::array<std::pair<double, const char*>, 5> kPointUnits{
 constexpr double kNearer = 0.8, kFarther = 2.5, kNearest = 0.4;
 constexpr double kNearTenth = 0.1;
 constexpr std::size_t kPixelStep = 7;
+constexpr std::size_t kMostDistances = std::size_t(1) << 20;
 
 struct DepthRange {
   double near_m, far_m;    ///< of use
@@ -48,15 +49,18 @@ std::optional<DepthRange> range_of(const std::string& model) {
   return all;
 }
 
-/// Distances of the returns, in units.
+/// Distances of some of the returns, in units.
 std::vector<double> distances_of(const SensorInfo& sensor, const std::vector<Frame>& frames) {
+  std::size_t all = 0;
+  for (const Frame& frame : frames) all += frame.depth.pixels.size() + frame.points.size();
+  const std::size_t step = std::max(kPixelStep, all / kMostDistances | 1);
   std::vector<double> out;
   for (const Frame& frame : frames) {
-    for (std::size_t i = 0; i < frame.depth.pixels.size(); i += kPixelStep) {
+    for (std::size_t i = 0; i < frame.depth.pixels.size(); i += step) {
       const std::uint16_t raw = frame.depth.pixels[i];
       if (raw != kNoReturn && raw != kOutsideCrop) out.push_back(raw);
     }
-    for (std::size_t i = 0; i < frame.points.size(); i += kPixelStep)
+    for (std::size_t i = 0; i < frame.points.size(); i += step)
       out.push_back((frame.points.points[i].cast<double>() - sensor.viewpoint.value).norm());
   }
   return out;

@@ -9,20 +9,27 @@ namespace turnscan {
 namespace {
 
 constexpr std::size_t kSuccessive = 2, kSpread = 6;
+/// Of larger images, which are held at once, fewer are spread over the rest.
+constexpr std::size_t kLargePixels = std::size_t(1) << 22, kSpreadOfLarge = 2;
 
 /// The first frames in succession and others spread over the rest.
 Result<std::vector<Frame>> frames_to_look_at(const FrameSequence& sequence, std::uint32_t sensor,
                                              const RunContext& context) {
   const std::vector<std::size_t> all = usable_frames(sequence, {.sensor = sensor});
+  const CameraIntrinsics& camera = sequence.header().sensors[sensor].intrinsics;
+  const bool large = std::size_t(camera.width) * std::size_t(camera.height) > kLargePixels;
   const auto second = all.begin() + std::ptrdiff_t(std::min(kSuccessive, all.size()));
   std::vector<std::size_t> chosen(all.begin(), second);
-  for (const std::size_t i :
-       evenly_spread_to_last(std::vector<std::size_t>(second, all.end()), kSpread))
+  for (const std::size_t i : evenly_spread_to_last(std::vector<std::size_t>(second, all.end()),
+                                                   large ? kSpreadOfLarge : kSpread))
     chosen.push_back(i);
   std::vector<std::optional<Frame>> read(chosen.size());
   TURNSCAN_TRY(
       read_frames(sequence, chosen, context, [&](std::size_t k, Result<Frame> frame) -> Result<> {
-        if (frame) read[k] = std::move(*frame);
+        if (!frame) return {};
+        frame->color = ColorImage();
+        frame->color_jpeg.clear();
+        read[k] = std::move(*frame);
         return {};
       }));
   std::vector<Frame> out;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <turnscan/core/frame_samples.hpp>
@@ -70,17 +71,16 @@ std::pair<Pairs, Pairs> text_order(std::size_t n, std::size_t first) {
 Result<std::vector<double>> changes(const FrameSequence& sequence,
                                     const std::vector<std::size_t>& usable, const Pairs& pairs,
                                     double beyond_noise, const RunContext& context) {
-  std::vector<std::size_t> positions;
-  for (const auto& [a, b] : pairs) positions.insert(positions.end(), {usable[a], usable[b]});
-  std::vector<DepthImage> images(positions.size());
-  TURNSCAN_TRY(read_frames(sequence, positions, context,
-                           [&](std::size_t k, Result<Frame> frame) -> Result<> {
-                             if (frame) images[k] = std::move(frame->depth);
-                             return {};
-                           }));
   std::vector<double> out;
-  for (std::size_t i = 0; i < images.size(); i += 2) {
-    const std::vector<int> values = differences(images[i], images[i + 1], false);
+  for (const auto& [a, b] : pairs) {
+    const std::array<std::size_t, 2> positions{usable[a], usable[b]};
+    std::array<DepthImage, 2> images;
+    TURNSCAN_TRY(read_frames(sequence, positions, context,
+                             [&](std::size_t k, Result<Frame> frame) -> Result<> {
+                               if (frame) images[k] = std::move(frame->depth);
+                               return {};
+                             }));
+    const std::vector<int> values = differences(images[0], images[1], false);
     if (values.size() < kMinPixels) return std::vector<double>();
     out.push_back(share_above(values, beyond_noise));
   }
