@@ -1,9 +1,10 @@
 #pragma once
 // Depth images (16-bit grey PNG) and colour images (PNG, JPEG).
 //
-// All readers reject an image of more than kMaxImagePixels pixels, or with more than 65535 rows or
-// columns, or whose size its file's length cannot hold, before they allocate memory for it
-// (kResourceLimit, kFormat). Damaged and truncated files fail with kFormat.
+// All readers reject an image of more than kMaxImagePixels pixels (those of the images of frames of
+// fewer: frame_size.hpp), or with more than 65535 rows or columns, or whose size its file's length
+// cannot hold, before they allocate memory for it (kResourceLimit, kFormat). Damaged and truncated
+// files fail with kFormat.
 
 #include <cstdint>
 #include <filesystem>
@@ -31,6 +32,7 @@ Result<std::string> encode_depth_png(const DepthImage& image);
 
 /// PNG (grey, RGB, RGBA, palette; 1 to 16 bits per channel, alpha is dropped) or JPEG (grey, YCbCr,
 /// RGB), detected by content. Anything else fails with kUnsupported.
+/// The first reads images that belong to frames, the second textures, too.
 Result<ColorImage> read_color(const std::filesystem::path& path);
 Result<ColorImage> decode_color(std::string_view bytes);
 
