@@ -77,7 +77,7 @@ class Around : public ::testing::Test, FirstStart {
 
 TEST_F(Around, AFileOfDoubtfulUnitAsksAndAPlausibleOneDoesNot) {
   std::vector<DoubtfulUnit> asked;
-  double answer = 1e-3;
+  std::optional<double> answer;
   window.explorer().set_unit_question([&](const DoubtfulUnit& doubt) {
     asked.push_back(doubt);
     return answer;
@@ -86,6 +86,12 @@ TEST_F(Around, AFileOfDoubtfulUnitAsksAndAPlausibleOneDoesNot) {
   window.open(letter("plain.obj", 1.0f));
   ASSERT_TRUE(wait_idle(window));
   EXPECT_TRUE(asked.empty());
+  window.open(letter("mm.obj", 1000.0f));
+  ASSERT_TRUE(wait_idle(window));
+  ASSERT_EQ(asked.size(), 1u);
+  EXPECT_EQ(store().models().size(), 1u) << "the question was dismissed";
+  answer = 1e-3;
+  asked.clear();
   window.open(letter("mm.obj", 1000.0f));
   ASSERT_TRUE(wait_idle(window));
   ASSERT_EQ(asked.size(), 1u);

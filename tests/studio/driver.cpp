@@ -20,6 +20,7 @@
 
 #include "app/jobs.hpp"
 #include "app/mode.hpp"
+#include "explorer/session.hpp"
 #include "view/scene_view.hpp"
 #include "widgets/section.hpp"
 #include "window/main_window.hpp"
@@ -28,6 +29,7 @@ namespace turnscan::studio {
 
 FirstStart::FirstStart() {
   QSettings().clear();
+  QDir(SessionKeeper::default_root()).removeRecursively();
   // What is kept of a device by an earlier test, or by a command line that it ran.
   QDir(qEnvironmentVariable("XDG_STATE_HOME") + "/turnscan/calibrations").removeRecursively();
 }

@@ -4,6 +4,7 @@
 
 #include <QApplication>
 #include <QCheckBox>
+#include <QComboBox>
 #include <QFile>
 #include <QLabel>
 #include <QLineEdit>
@@ -345,9 +346,7 @@ TEST_F(Scanner, TheCircleFollowsTheClicksOnTheRim) {
   ASSERT_TRUE(type(named(mode(), "option:average-frames"), "5"));
   ASSERT_TRUE(click(button_with(mode(), "Play")));
   ASSERT_TRUE(wait_for([&] { return enabled("Averaged scan"); }));
-  ASSERT_TRUE(click(button_with(mode(), "Averaged scan")));
-  ASSERT_TRUE(wait_for([&] { return enabled("Calibrate"); }));
-  ASSERT_TRUE(click(button_with(mode(), "Calibrate")));
+  ASSERT_TRUE(click(button_with(mode(), "Calibrate")));  // takes the averaged scan, too
   ASSERT_TRUE(wait_for([&] { return mode().calibration() != nullptr; }));
   const TurntableInfo table = mode().calibration()->table;
   ASSERT_TRUE(click(button_with(mode(), "Pick rim points")));
@@ -369,6 +368,77 @@ TEST_F(Scanner, TheCircleFollowsTheClicksOnTheRim) {
   const std::size_t before = mode().picks();
   ASSERT_TRUE(click(button_with(mode(), "Undo click")));
   EXPECT_EQ(mode().picks(), before - 1);
+  // Clicks beside the rim are refused with the limit, and what was detected holds.
+  for (const double off_m : {-0.05, 0.03}) mode().add_pick(table.center_m + off_m * u);
+  const auto errors = mode().findChildren<QLabel*>("error");
+  EXPECT_TRUE(std::any_of(errors.begin(), errors.end(), [](const QLabel* label) {
+    return label->isVisible() && label->text().contains("4 mm is the limit");
+  }));
+  EXPECT_EQ(mode().calibration()->method, CalibrationMethod::kDetected);
+  // A new detection is not undone by taking clicks back.
+  ASSERT_TRUE(click(button_with(mode(), "Calibrate")));
+  ASSERT_TRUE(wait_for([&] { return mode().picks() == 0; }));
+  mode().undo();
+  EXPECT_EQ(mode().calibration()->method, CalibrationMethod::kDetected);
+  EXPECT_NEAR(*mode().calibration()->table.radius_m, *table.radius_m, 1e-4);
+}
+
+TEST_F(Scanner, ThePlatterIsFoundWhileItPlaysAndReturnPlaysWhatIsTyped) {
+  auto* box = qobject_cast<QComboBox*>(named(mode(), "device"));
+  const auto play = [&](const QString& uri) {
+    ASSERT_TRUE(type(box->lineEdit(), uri));
+    QTest::keyClick(box->lineEdit(), Qt::Key_Return);
+  };
+  auto* chip = qobject_cast<QLabel*>(named(mode(), "platter_chip"));
+  play("virtual:doll?sensor=kinect-v2&realtime=1&frames=6000");
+  ASSERT_TRUE(wait_for([&] { return chip->isVisible(); }));
+  EXPECT_EQ(chip->property("grade"), "good") << chip->text().toStdString();
+  EXPECT_TRUE(QRegularExpression(R"(radius 1(49|50)\.\d mm, known to \d\.\d mm)")
+                  .match(chip->text())
+                  .hasMatch())
+      << chip->text().toStdString();
+  keep_picture(window, "scanner-chip");
+  // Another one takes its place: what plays is what the field says.
+  play("virtual:empty?sensor=kinect-v2&platter-radius=120mm&realtime=1&frames=6000");
+  EXPECT_TRUE(wait_for([&] {
+    return chip->isVisible() && chip->text().contains(
+                                    "radius 1"
+                                    "2");
+  })) << chip->text().toStdString();
+  // What is typed and left is taken back.
+  ASSERT_TRUE(type(box->lineEdit(), "virtual:skull"));
+  mode().view().setFocus();
+  EXPECT_TRUE(box->currentText().startsWith("virtual:empty"));
+}
+
+TEST_F(Scanner, SpaceRecordsAndStopsAndTheSurfaceStaysUntilTheMesh) {
+  mode().set_device(
+      "virtual:skull?sensor=kinect-v2&calibration=true&angles=1&frames=6000&turns=100");
+  ASSERT_TRUE(type(named(mode(), "option:turns"), "20"));
+  ASSERT_TRUE(click(button_with(mode(), "Play")));
+  ASSERT_TRUE(wait_for([&] { return enabled("Record"); }));
+  const auto space = [&] {
+    ASSERT_NE(window.focusWidget(), nullptr);
+    QTest::keyClick(window.focusWidget(), Qt::Key_Space);
+  };
+  ASSERT_NO_FATAL_FAILURE(space());
+  ASSERT_TRUE(wait_for([&] { return mode().updates().surfaces > 1; }));
+  ASSERT_NO_FATAL_FAILURE(space());
+  ASSERT_TRUE(wait_for([&] { return !mode().is_recording(); }));
+  ExplorerMode& explorer = window.explorer();
+  ASSERT_TRUE(wait_for([&] { return explorer.shows_surface(); }));
+  ASSERT_TRUE(wait_for([&] { return explorer.view().settled(); }));
+  keep_picture(window, "surface-stays");
+  ASSERT_TRUE(wait_for([&] { return explorer.store().models().size() == 2; }));
+  EXPECT_FALSE(explorer.shows_surface());
+  ASSERT_TRUE(wait_idle(window));
+  keep_picture(window, "surface-is-mesh");
+  // The next one is written beside it, and the panel says so.
+  const auto labels = mode().findChildren<QLabel*>("quiet");
+  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(), [](const QLabel* label) {
+    return label->text().contains("the next recording goes into") &&
+           label->text().endsWith("recording-2");
+  }));
 }
 
 TEST_F(Scanner, ALostDeviceKeepsWhatWasRecorded) {

@@ -4,7 +4,9 @@
 
 #include <QApplication>
 #include <QComboBox>
+#include <QLabel>
 #include <QLineEdit>
+#include <QListWidget>
 #include <QMouseEvent>
 #include <QPushButton>
 #include <QSlider>
@@ -138,18 +140,23 @@ TEST_F(Simulator, ASweepPlotsTheCoverageAndPlacesTheScannerAtItsBest) {
   ASSERT_NE(sweep, nullptr);
   auto* option = qobject_cast<QComboBox*>(named(*sweep, "sweep_option"));
   option->setCurrentIndex(option->findData("tilt"));
-  ASSERT_TRUE(type(named(*sweep, "sweep_values"), "-20deg..20deg/10deg"));
+  ASSERT_TRUE(type(named(*sweep, "sweep_values"), "-20..20/10"));
   ASSERT_TRUE(click(button_with(*sweep, "Sweep")));
   ASSERT_TRUE(wait_idle(window));
   ASSERT_EQ(sweep->swept().size(), 5u);
   EXPECT_GT(best_of(sweep->swept()).covered, sweep->swept().back().covered);
   keep_picture(window, "simulator-sweep");
+  qobject_cast<QListWidget*>(named(mode(), "scanner_list"))
+      ->setCurrentRow(0);  // the swept is meant
   ASSERT_TRUE(click(button_with(*sweep, "Use the best")));
   const ScannerSetup placed =
       *scanner_setup(mode().scene().scanners.at(1), mode().scene().placement);
   EXPECT_NEAR(placed.placement.tilt_rad, best_of(sweep->swept()).value, 1e-6);
   ASSERT_TRUE(type(named(*sweep, "sweep_values"), "20"));
   ASSERT_TRUE(click(button_with(*sweep, "Sweep")));
+  const QString problem = sweep->findChild<QLabel*>("error")->text();
+  EXPECT_TRUE(problem.contains("from..to/step") && !problem.contains("--sweep"))
+      << problem.toStdString();
   EXPECT_TRUE(crowded(window).empty());
 }
 

@@ -11,6 +11,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QStatusBar>
 #include <QTest>
 #include <QTreeWidget>
 #include <turnscan/io/mesh/mesh_io.hpp>
@@ -110,7 +111,13 @@ TEST_F(Stages, VoxelsAreCubesThatAThresholdKeepsAtOnceAndASheetShowsAllStages) {
   ASSERT_TRUE(wait_for([&] { return drawn() && window.mode().view().screenshot() != all; }));
   keep_picture(window, "voxels-kept");
   EXPECT_EQ(models().size(), before);  // no stage was run
+  const auto said = [&](const QString& text) {
+    for (const QLabel* label : window.statusBar()->findChildren<QLabel*>())
+      if (label->text().contains(text)) return true;
+    return false;
+  };
   ASSERT_TRUE(click(button_with(mode(), "Use for Voxelise")));
+  EXPECT_TRUE(said("6 points or more"));
   EXPECT_EQ(qobject_cast<QLineEdit*>(named(mode(), "option:voxel-min-points"))->text(), "6");
   mode().list().select(models().front().id);
   run("sub-voxels");
@@ -118,9 +125,14 @@ TEST_F(Stages, VoxelsAreCubesThatAThresholdKeepsAtOnceAndASheetShowsAllStages) {
   run_for(500);
   ASSERT_TRUE(wait_for(drawn));
   keep_picture(window, "sub-voxels");
-  mode().list().select(models().front().id);
+  EXPECT_TRUE(kept->text().contains("lines")) << kept->text().toStdString();
+  // A stage of a stage's points would be another thing than its name says.
   run("candidates");
-  mode().list().select(models().front().id);
+  EXPECT_EQ(models().back().name, "doll candidates");
+  EXPECT_EQ(std::count_if(models().begin(), models().end(),
+                          [](const Model& model) { return model.visible; }),
+            1)
+      << "models of one recording lie in the same place";
   ASSERT_TRUE(click(button_with(mode(), "Reconstruct")));
   ASSERT_TRUE(wait_idle(window));
   ASSERT_TRUE(click(button_with(mode(), "Stages…")));
@@ -201,6 +213,8 @@ TEST_F(Stages, ModelsAreHiddenRenamedDuplicatedColouredAndDeleted) {
 
 TEST_F(Stages, OptionsAreKeptAsAPresetThatTheCommandLineTakes) {
   ASSERT_TRUE(type(named(mode(), "option:voxel-size"), "3"));
+  EXPECT_FALSE(type(named(mode(), "option:poisson-depth"), "7")) << "a field of another method";
+  qobject_cast<QComboBox*>(named(mode(), "option:method"))->setCurrentText("poisson");
   ASSERT_TRUE(type(named(mode(), "option:poisson-depth"), "7"));
   mode().save_preset(folder.filePath("preset.toml"));
   ASSERT_TRUE(wait_idle(window));
@@ -214,6 +228,41 @@ TEST_F(Stages, OptionsAreKeptAsAPresetThatTheCommandLineTakes) {
   EXPECT_FALSE(mode().stages().preset_text().find("voxel-size") != std::string::npos);
   ASSERT_TRUE(mode().stages().load_preset(folder.filePath("preset.toml").toStdString()));
   EXPECT_EQ(mode().stages().preset_text(), content(folder.filePath("preset.toml")).toStdString());
+}
+
+TEST_F(Stages, WhatDiffersFromTheDefaultsIsSaidAndPutBack) {
+  auto* notice = mode().stages().notice();
+  EXPECT_FALSE(notice->isVisible());
+  ASSERT_TRUE(type(named(mode(), "option:voxel-grid"), "100"));
+  EXPECT_TRUE(notice->isVisible());
+  auto* text = qobject_cast<QLabel*>(notice);
+  EXPECT_TRUE(text->text().contains("Voxel grid")) << text->text().toStdString();
+  keep_picture(window, "changed-setting");
+  QLabel* label = nullptr;
+  for (QLabel* each : mode().stages().findChildren<QLabel*>())
+    if (each->text().contains("Voxel grid ↺")) label = each;
+  ASSERT_NE(label, nullptr);
+  Q_EMIT label->linkActivated("reset");
+  EXPECT_EQ(qobject_cast<QLineEdit*>(named(mode(), "option:voxel-grid"))->text(), "");
+  EXPECT_FALSE(notice->isVisible());
+  EXPECT_FALSE(label->text().contains("↺"));
+}
+
+TEST_F(Stages, EqualJobsAreQueuedOnceAndTheQueueIsSeen) {
+  const QString recording = folder.filePath("letter");
+  ASSERT_EQ(run_command_line({"simulate", "builtin:letter-a", "-o", recording, "--frames", "16",
+                              "--scanner", "kinect-v2"}),
+            0);
+  window.open(recording);
+  ASSERT_TRUE(wait_idle(window));
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(click(button_with(mode(), "Reconstruct")));
+  EXPECT_TRUE(window.jobs().waiting().isEmpty());
+  ASSERT_TRUE(click(named(mode(), "run:merged")));
+  EXPECT_EQ(window.jobs().waiting(), QStringList{"letter merged"});
+  EXPECT_TRUE(wait_for(
+      [&] { return qobject_cast<QLabel*>(named(window, "jobs_waiting"))->text() == "1 more"; }));
+  ASSERT_TRUE(wait_idle(window));
+  EXPECT_EQ(models().size(), 3u);
 }
 
 }  // namespace

@@ -13,10 +13,12 @@
 #include <QPushButton>
 #include <QSlider>
 #include <QTest>
+#include <QToolButton>
 #include <QUrl>
 #include <QWheelEvent>
 #include <atomic>
 #include <chrono>
+#include <set>
 #include <thread>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
@@ -25,6 +27,8 @@
 #include "driver.hpp"
 #include "explorer/explorer.hpp"
 #include "explorer/models.hpp"
+#include "explorer/stage_panel.hpp"
+#include "scanner/scanner.hpp"
 #include "simulator/simulator.hpp"
 #include "view/scene_view.hpp"
 #include "view/view_settings.hpp"
@@ -175,11 +179,48 @@ TEST_F(Window, AJobOfUnknownLengthCountsItsSeconds) {
 }
 
 TEST_F(Window, TheFirstStartOffersWhatToDo) {
+  ASSERT_TRUE(click(button_with(window->mode().view(), "Scan an object")));
+  EXPECT_TRUE(wait_for([&] { return button_with(window->scanner(), "Stop") != nullptr; }))
+      << "it plays";
+  window->show_mode("explorer");
   ASSERT_TRUE(click(button_with(window->mode().view(), "Simulate a scan")));
   EXPECT_EQ(&window->mode(), &window->simulator());
   window->show_mode("explorer");
   open_letter();
   EXPECT_FALSE(button_with(window->mode().view(), "Simulate a scan")->isVisible());
+}
+
+TEST_F(Window, AMessageIsDismissedByItsCross) {
+  window->open(folder.filePath("none.ply"));
+  ASSERT_TRUE(wait_idle(*window));
+  auto* error = window->explorer().stages().error();
+  ASSERT_TRUE(error->isVisible());
+  auto* cross = error->findChild<QToolButton*>("dismiss");
+  ASSERT_TRUE(cross && cross->isVisible());
+  QTest::mouseClick(cross, Qt::LeftButton);
+  EXPECT_FALSE(error->isVisible());
+}
+
+/// What a widget looks like with the keys and without.
+TEST_F(Window, EveryKindOfControlShowsItsFocus) {
+  window->show_mode("simulator");
+  window->activateWindow();
+  std::set<std::string> seen;
+  for (QWidget* each : window->simulator().findChildren<QWidget*>()) {
+    const std::string kind = each->metaObject()->className();
+    if (!each->isVisible() || !each->isEnabled() || !(each->focusPolicy() & Qt::TabFocus)) continue;
+    if (kind.find("Scroll") != std::string::npos || kind.find("Vtk") != std::string::npos ||
+        kind.find("Scene") != std::string::npos)
+      continue;
+    if (!seen.insert(kind + each->objectName().section(':', 0, 0).toStdString()).second) continue;
+    window->setFocus();
+    run_for(20);
+    const QImage before = each->grab().toImage();
+    each->setFocus(Qt::TabFocusReason);
+    run_for(20);
+    EXPECT_NE(each->grab().toImage(), before) << kind << " " << each->objectName().toStdString();
+  }
+  EXPECT_GE(seen.size(), 5u);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "app/jobs.hpp"
 
 #include <QPointer>
+#include <algorithm>
 #include <chrono>
 #include <turnscan/core/process/thread_priority.hpp>
 
@@ -12,6 +13,7 @@ struct JobRunner::Job {
   Work work;
   OnError on_error;
   PhasePlan plan;
+  QString key;
   RunContext context;
 };
 
@@ -32,19 +34,30 @@ JobRunner::~JobRunner() {
 }
 
 void JobRunner::start(const QString& title, QObject* owner, Work work, OnError on_error,
-                      PhasePlan plan) {
-  ++open_jobs_;
+                      PhasePlan plan, const QString& key) {
+  if (!key.isEmpty() &&
+      std::any_of(open_.begin(), open_.end(), [&](const auto& job) { return job->key == key; }))
+    return;
   auto job = std::make_shared<Job>();
   job->title = title;
   job->owner = owner;
   job->work = std::move(work);
   job->on_error = std::move(on_error);
   job->plan = std::move(plan);
+  job->key = key;
+  open_.push_back(job);
   {
     const std::lock_guard lock(mutex_);
     waiting_.push_back(std::move(job));
   }
   wake_.notify_all();
+  Q_EMIT queued();
+}
+
+QStringList JobRunner::waiting() const {
+  QStringList titles;
+  for (std::size_t i = 1; i < open_.size(); ++i) titles << open_[i]->title;
+  return titles;
 }
 
 void JobRunner::cancel() {
@@ -123,7 +136,7 @@ void JobRunner::watch(Job& job) {
 }
 
 void JobRunner::end(const std::shared_ptr<Job>& job, Result<Finish> result) {
-  --open_jobs_;
+  open_.pop_front();  // they end in their order
   // Emitted before the error itself, which may be shown in the same line.
   if (!result && result.error().code == ErrorCode::kCancelled) {
     Q_EMIT cancelled(job->title);

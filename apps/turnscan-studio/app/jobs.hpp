@@ -3,7 +3,7 @@
 
 #include <QElapsedTimer>
 #include <QObject>
-#include <QString>
+#include <QStringList>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -30,15 +30,19 @@ class JobRunner : public QObject {
   ~JobRunner() override;
 
   /// Queues a job. `owner` may be destroyed meanwhile: then neither Finish nor OnError is called.
-  /// With a plan, progress is that of the whole job.
-  void start(const QString& title, QObject* owner, Work work, OnError on_error,
-             PhasePlan plan = {});
+  /// With a plan, progress is that of the whole job. Does nothing while a job of the same key, if
+  /// that is not empty, waits or runs: a button pressed again.
+  void start(const QString& title, QObject* owner, Work work, OnError on_error, PhasePlan plan = {},
+             const QString& key = {});
   /// Cancels the running job and the queued ones.
   void cancel();
-  bool busy() const { return open_jobs_ > 0; }
+  bool busy() const { return !open_.empty(); }
+  /// Titles of the jobs that wait, the next one first.
+  QStringList waiting() const;
 
  Q_SIGNALS:
   void started(const QString& title);
+  void queued();
   /// fraction, 0 to 1, and seconds_left are those of the whole job if it has a plan, else of the
   /// phase; negative: not known yet.
   void progress(const QString& phase, double fraction, double seconds_left);
@@ -62,7 +66,7 @@ class JobRunner : public QObject {
   std::shared_ptr<Job> running_;
   bool stop_ = false;
 
-  int open_jobs_ = 0;  // window's thread only
+  std::deque<std::shared_ptr<Job>> open_;  ///< the running one first; window's thread only
   std::thread thread_;
 };
 

@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "app/another_side.hpp"
+#include "view/drawable.hpp"
 
 class QLabel;
 class QScrollArea;
@@ -49,6 +50,10 @@ class Mode : public QWidget {
   void undo_changed();
   /// Asks to switch to another mode; see MainWindow::show_mode().
   void mode_wanted(const QString& name);
+  /// The surface, table frame, that grew with the recording that follows: shown until its mesh is.
+  void surface_left(const DrawablePtr& surface);
+  /// Asks for the Scanner, which is to play.
+  void scan_wanted();
   /// A recording for the Explorer; with `reconstruct` it is also reconstructed.
   void recording_made(const QString& folder, bool reconstruct);
   /// A recording ended by a fault: the Explorer gets it, but the reason is shown in this mode.

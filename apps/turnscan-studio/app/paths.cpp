@@ -1,6 +1,9 @@
 #include "app/paths.hpp"
 
 #include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QSettings>
 
 namespace turnscan::studio {
 
@@ -13,6 +16,15 @@ QString shown_path(const QString& path) {
 QString typed_path(const QString& text) {
   const QString path = text.trimmed();
   return path == "~" || path.startsWith("~/") ? QDir::homePath() + path.mid(1) : path;
+}
+
+QString ask_save_path(QWidget* parent, const QString& title, const QString& name,
+                      const QString& filter) {
+  QSettings settings;
+  const QDir folder(settings.value("files/folder", QDir::homePath()).toString());
+  const QString path = QFileDialog::getSaveFileName(parent, title, folder.filePath(name), filter);
+  if (!path.isEmpty()) settings.setValue("files/folder", QFileInfo(path).absolutePath());
+  return path;
 }
 
 QString free_folder(const QString& path) {

@@ -12,4 +12,9 @@ QString typed_path(const QString& text);
 /// The path, or with the first number appended for which it is not a non-empty folder.
 QString free_folder(const QString& path);
 
+/// Asks for a file to write, first in the folder of the last one, or else in the home. Empty: none
+/// was chosen.
+QString ask_save_path(QWidget* parent, const QString& title, const QString& name,
+                      const QString& filter);
+
 }  // namespace turnscan::studio

@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "app/paths.hpp"
 #include "explorer/compare_panel.hpp"
 #include "explorer/editing/edit_panel.hpp"
 #include "explorer/editing/history_panel.hpp"
@@ -59,6 +60,7 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       look_(new LookPanel(view(), *store_, this)),
       voxels_(new VoxelPanel(*store_, this)),
       voxels_section_(section_with(voxels_, tr("Voxels"), true, this)),
+      verdict_section_(section_with(verdict_, tr("Verdict"), true, this)),
       session_(new SessionKeeper(*store_, SessionKeeper::default_root(), this)),
       ask_unit_([this](const DoubtfulUnit& doubt) { return ask_unit(doubt, this); }) {
   const ExplorerParts parts{*store_, *list_, view(), jobs(), *tools_};
@@ -76,11 +78,11 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       },
       this);
   add_sections();
-  set_footer({stages_->error(), stages_->action()});
+  set_footer({stages_->error(), stages_->notice(), stages_->action()});
   view().set_empty_text(tr("Nothing loaded yet"),
                         tr("Drop meshes, point clouds or recordings here, or begin with a scan."));
   view().set_empty_actions({{tr("Open…"), [this] { open_dialog(); }},
-                            {tr("Scan an object"), [this] { Q_EMIT mode_wanted("scanner"); }},
+                            {tr("Scan an object"), [this] { Q_EMIT scan_wanted(); }},
                             {tr("Simulate a scan"), [this] { Q_EMIT mode_wanted("simulator"); }}});
   connect_panels();
   on_selection(0);
@@ -100,13 +102,13 @@ void ExplorerMode::add_sections() {
   join_section_ = new Section(tr("Join by points"), false, this, Section::kNested);
   join_section_->body()->addWidget(join_);
   side->body()->addWidget(join_section_);
-  for (Section* each : {section_with(list_, tr("Models"), true, this), voxels_section_,
-                        section_with(verdict_, tr("Verdict"), true, this), side, inspection,
-                        section_with(edits_, tr("Editing"), false, this),
-                        section_with(new HistoryPanel(*store_, this), tr("History"), false, this),
-                        section_with(look_, tr("Looking"), false, this),
-                        section_with(stages_, tr("Processing"), true, this),
-                        section_with(compare_, tr("Compare"), false, this)})
+  for (Section* each :
+       {section_with(list_, tr("Models"), true, this), voxels_section_, verdict_section_, side,
+        inspection, section_with(edits_, tr("Editing"), false, this),
+        section_with(new HistoryPanel(*store_, this), tr("History"), false, this),
+        section_with(look_, tr("Looking"), false, this),
+        section_with(stages_, tr("Processing"), true, this),
+        section_with(compare_, tr("Compare"), false, this)})
     panel()->addWidget(each);
   panel()->addStretch();
 }
@@ -114,6 +116,10 @@ void ExplorerMode::add_sections() {
 void ExplorerMode::connect_panels() {
   connect(store_, &ModelStore::changed, this, &ExplorerMode::sync);
   connect(store_, &ModelStore::changed, this, &Mode::undo_changed);
+  for (const auto ends : {&JobRunner::failed, &JobRunner::cancelled})
+    connect(&jobs(), ends, this, [this] {
+      if (preview_ != 0) show_until_mesh(nullptr);
+    });
   connect(session_, &SessionKeeper::failed, this, &Mode::status);
   session_->set_look([this] { return std::pair(view().camera(), list_->selected()); });
   connect(&view(), &SceneView::camera_changed, session_, &SessionKeeper::look_changed);
@@ -145,6 +151,7 @@ void ExplorerMode::connect_panels() {
   connect(voxels_, &VoxelPanel::changed, this, &ExplorerMode::sync);
   connect(voxels_, &VoxelPanel::threshold_wanted, this, [this](int least) {
     stages_->set_option("voxels", "voxel-min-points", QString::number(least));
+    Q_EMIT status(tr("Voxelise keeps voxels with %1 points or more from now on").arg(least));
   });
   connect(look_, &LookPanel::movie_wanted, this, &ExplorerMode::movie_dialog);
   connect(side_, &SidePanel::scan_wanted, this, [this] {
@@ -179,17 +186,13 @@ void ExplorerMode::open_dialog() {
 void ExplorerMode::save() {
   const Model* model = store_->find(list_->selected());
   if (!model) return;
-  QSettings settings;
   const bool mesh = model->data->kind == ModelKind::kMesh;
-  const QString folder = settings.value("files/folder").toString();
-  const QString name = QString("%1/%2.%3").arg(folder.isEmpty() ? "." : folder, model->name, "ply");
-  const QString path = QFileDialog::getSaveFileName(
-      this, tr("Save %1").arg(model->name), name,
+  const QString path = ask_save_path(
+      this, tr("Save %1").arg(model->name), model->name + ".ply",
       mesh ? tr("PLY (*.ply);;STL, millimetres (*.stl);;3MF, millimetres (*.3mf);;OBJ (*.obj);;"
                 "GLB (*.glb)")
            : tr("PLY (*.ply)"));
   if (path.isEmpty()) return;
-  settings.setValue("files/folder", QFileInfo(path).absolutePath());
   save_as(model->id, path);
 }
 
@@ -272,14 +275,9 @@ void ExplorerMode::draw_colored() {
 void ExplorerMode::report_dialog() {
   const Model* model = store_->find(list_->selected());
   if (!model || !model->data->quality) return;
-  QSettings settings;
-  const QString folder = settings.value("files/folder").toString();
-  const QString path = QFileDialog::getSaveFileName(
-      this, tr("Export the report of %1").arg(model->name),
-      QString("%1/%2.html").arg(folder.isEmpty() ? "." : folder, model->name),
-      tr("Report page (*.html)"));
+  const QString path = ask_save_path(this, tr("Export the report of %1").arg(model->name),
+                                     model->name + ".html", tr("Report page (*.html)"));
   if (path.isEmpty()) return;
-  settings.setValue("files/folder", QFileInfo(path).absolutePath());
   export_report(model->id, path);
 }
 
@@ -295,7 +293,7 @@ ItemStyle ExplorerMode::style_of(const Model& model) const {
     style.visible = style.pane == 1 || (left && model.id == left->id);
     return style;
   }
-  if (deviations_->hides(model.id)) style.visible = false;
+  if (deviations_->hides(model.id) || preview_ != 0) style.visible = false;
   if (look_->isolated() && model.id != list_->selected()) style.visible = false;
   if (compare_->way() == ComparePanel::kOff) return style;
   const bool left = model.id == compare_->reference(), right = model.id == compare_->compared();
@@ -337,9 +335,9 @@ void ExplorerMode::on_selection(int id) {
   } else {
     draw_colored();
   }
-  const bool recording = model && model->data->kind == ModelKind::kRecording;
-  const bool cloud = model && model->data->kind == ModelKind::kCloud;
-  stages_->set_target(recording, cloud);
+  const auto input = stage_input();
+  stages_->set_target(input && input->data->kind != ModelKind::kMesh,
+                      model && model->data->kind == ModelKind::kCloud);
   if (model) Q_EMIT described(QString("%1: %2").arg(model->name, count_text(*model->data)));
 }
 

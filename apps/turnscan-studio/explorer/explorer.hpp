@@ -62,8 +62,13 @@ class ExplorerMode : public Mode {
   void set_unit_question(UnitQuestion question) { ask_unit_ = std::move(question); }
   /// Loads a recording and then optionally runs all stages.
   void take_recording(const QString& folder, bool reconstruct);
+  /// Draws a surface, table frame, in place of the models until the next mesh, or until it fails.
+  void show_until_mesh(const DrawablePtr& surface);
+  bool shows_surface() const { return preview_ != 0; }
   void run_stage(const QString& stage);
   void save_as(int id, const QString& path);
+  /// All that are in no file, as NAME.ply, or NAME.glb with a texture; no file is replaced.
+  void save_all(const QString& folder);
   void save_preset(const QString& path);
   /// Exports the report page of the run that made a model.
   void export_report(int id, const QString& path);
@@ -91,6 +96,9 @@ class ExplorerMode : public Mode {
   void load(const QString& path, const std::function<void()>& then,
             std::optional<double> metres_per_unit = std::nullopt, Beside beside = kOthers);
   std::vector<int> visible_models() const;
+  std::optional<Model> stage_input() const;
+  /// Models that stages made from the recording.
+  std::vector<int> visible_results(const ModelDataPtr& recording) const;
   std::optional<int> recording_from(const QString& folder) const;
   void movie_dialog();
   void run_filter();
@@ -123,13 +131,14 @@ class ExplorerMode : public Mode {
   VerdictPanel* verdict_;
   LookPanel* look_;
   VoxelPanel* voxels_;
-  Section* voxels_section_;
+  Section *voxels_section_, *verdict_section_;
   SessionKeeper* session_;
   struct Shown {
     int item = 0;
     ModelDataPtr data;
     DrawablePtr drawable;
   };
+  int preview_ = 0;       ///< item of show_until_mesh(); 0: none
   int legend_model_ = 0;  ///< the legend is shown while this model is visible
   Legend legend_;
   std::map<int, Shown> shown_;  ///< by model

@@ -1,6 +1,8 @@
 // Jobs that the Explorer runs on the worker thread: loading, stages, comparison, edits, saving.
 
+#include <QDir>
 #include <QFileInfo>
+#include <turnscan/core/mesh_texture.hpp>
 #include <turnscan/evaluation/colormap.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
@@ -51,8 +53,9 @@ void ExplorerMode::load(const QString& path, const std::function<void()>& then,
                         load_models(path.toStdString(), context, metres_per_unit));
         return Finish([this, path, then, metres_per_unit, beside, models = std::move(models)] {
           if (const auto doubt = doubtful_unit(path, models); doubt && !metres_per_unit) {
-            const double unit = ask_unit_(*doubt);
-            if (unit != doubt->metres_per_unit) return load(path, then, unit, beside);
+            const auto unit = ask_unit_(*doubt);
+            if (!unit) return Q_EMIT status(tr("%1 was not opened").arg(doubt->file));
+            if (*unit != doubt->metres_per_unit) return load(path, then, unit, beside);
           }
           for (const auto& model : models) store_->set_file(model.second, path);
           const auto hidden = beside == kAlone ? visible_models() : std::vector<int>();
@@ -69,13 +72,22 @@ void ExplorerMode::load(const QString& path, const std::function<void()>& then,
             box.add(box_of(*made->drawable).min);
             box.add(box_of(*made->drawable).max);
           }
-          view().bring_into_view(box);
+          if (preview_ == 0) view().bring_into_view(box);
           Q_EMIT file_opened(path);
           if (then) then();
         });
       },
       // If several files are loaded, each bad one is named.
       [this](const QString& text) { stages_->add_error(text); });
+}
+
+void ExplorerMode::show_until_mesh(const DrawablePtr& surface) {
+  view().remove(preview_);
+  ItemStyle style;
+  style.visible = surface != nullptr;
+  preview_ = surface ? view().add(surface, style) : 0;
+  sync();
+  if (surface) view().reset_camera();
 }
 
 void ExplorerMode::take_recording(const QString& folder, bool reconstruct) {
@@ -103,18 +115,49 @@ std::vector<int> ExplorerMode::visible_models() const {
   return ids;
 }
 
-void ExplorerMode::run_stage(const QString& stage) {
+/// What a stage of the selected model runs on: the recording that the model was made from, if there
+/// is one, because a stage of a stage's points would not be what its name says.
+std::optional<Model> ExplorerMode::stage_input() const {
   const Model* selected = store_->find(list_->selected());
+  if (!selected) return std::nullopt;
+  const ModelDataPtr& from = selected->data->made_from;
+  if (!from) return *selected;
+  for (const Model& model : store_->models())
+    if (model.data == from) return model;
+  const auto renewed = recording_from(from->source);
+  if (renewed) return *store_->find(*renewed);
+  Model removed = *selected;
+  removed.data = from;
+  return removed;
+}
+
+std::vector<int> ExplorerMode::visible_results(const ModelDataPtr& recording) const {
+  std::vector<int> ids;
+  for (const Model& model : store_->models())
+    if (model.visible && model.data->made_from == recording) ids.push_back(model.id);
+  return ids;
+}
+
+void ExplorerMode::run_stage(const QString& stage) {
+  const auto input = stage_input();
   const QString problem = stages_->first_error();
   stages_->show_error(problem);
-  if (!selected || !problem.isEmpty()) return;
+  if (!input || !problem.isEmpty()) return;
+  const QString title = stage == QString::fromStdString(kMeshStage)
+                            ? tr("Reconstruct %1").arg(input->name)
+                            : QString("%1 %2").arg(input->name, stage);
   jobs().start(
-      tr("Reconstruct"), this,
-      [this, model = *selected, stage = stage.toStdString(),
+      title, this,
+      [this, model = *input, stage = stage.toStdString(),
        options = stages_->options()](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(StageRun run, run_stage_of(model, stage, options, context));
-        return Finish([this, id = model.id, run = std::move(run)] {
-          const auto ids = store_->add_instead(run.models, {id}, tr("reconstruct"));
+        return Finish([this, model, run = std::move(run)] {
+          // Models of one recording lie in the same place.
+          auto hidden = visible_results(model.data);
+          hidden.push_back(model.id);
+          show_until_mesh(nullptr);
+          const auto ids = store_->add_instead(run.models, hidden, tr("reconstruct"));
+          verdict_section_->set_open(true);  // of this scan
           list_->select(ids.front());
           stages_->show_used(run.choices);
           if (!run.not_joined.isEmpty()) {
@@ -126,7 +169,11 @@ void ExplorerMode::run_stage(const QString& stage) {
         });
       },
       [this](const QString& text) { stages_->show_error(text); },
-      stage_phases(*selected, stage.toStdString(), stages_->options()));
+      stage_phases(*input, stage.toStdString(), stages_->options()),
+      // A recording with another pass has other data.
+      QString("%1 %2 %3")
+          .arg(title, QString::fromStdString(stages_->preset_text()))
+          .arg(quintptr(input->data.get())));
 }
 
 void ExplorerMode::run_filter() {
@@ -191,6 +238,19 @@ void ExplorerMode::save_as(int id, const QString& path) {
         });
       },
       [this](const QString& text) { stages_->show_error(text); });
+}
+
+void ExplorerMode::save_all(const QString& folder) {
+  const QStringList unsaved = store_->unsaved();
+  for (const Model& model : store_->models()) {
+    if (!unsaved.contains(model.name)) continue;
+    const QString ending = has_texture(model.data->mesh) ? ".glb" : ".ply";
+    const QString name = QDir(folder).filePath(QString(model.name).replace('/', '-'));
+    QString path = name + ending;
+    for (int i = 2; QFileInfo::exists(path); ++i)
+      path = QString("%1-%2%3").arg(name).arg(i).arg(ending);
+    save_as(model.id, path);
+  }
 }
 
 void ExplorerMode::color_selected() {

@@ -47,9 +47,11 @@ struct ModelData {
   std::shared_ptr<const MissingSurface> missing;   ///< for a mesh; nullptr: not known
   std::shared_ptr<const ScanQuality> quality;      ///< for a mesh as made by the scan, else nullptr
   std::shared_ptr<const PassesOfMesh> passes;  ///< the same, for a recording with several passes
-  std::optional<double> metres_per_unit;       ///< with which its file was read, if specified
-  QString source;                              ///< file, or the operation that made it
-  QString report;                              ///< several human-readable lines
+  std::shared_ptr<const ModelData>
+      made_from;                          ///< the recording that a stage ran on; an edit has none
+  std::optional<double> metres_per_unit;  ///< with which its file was read, if specified
+  QString source;                         ///< file, or the operation that made it
+  QString report;                         ///< several human-readable lines
   DrawablePtr drawable;
 };
 using ModelDataPtr = std::shared_ptr<const ModelData>;

@@ -46,7 +46,15 @@ SessionKeeper::SessionKeeper(ModelStore& store, const QString& root, QObject* pa
 SessionKeeper::~SessionKeeper() {
   writer_.clear();
   writer_.waitForDone();
-  if (lock_) remove_folder(folder_);
+  if (lock_ && !stays_) remove_folder(folder_);
+}
+
+bool SessionKeeper::set_stays(bool stays) {
+  stays_ = stays;
+  if (!stays) return true;
+  failed_ = false;
+  flush();
+  return !failed_;
 }
 
 QString SessionKeeper::default_root() {

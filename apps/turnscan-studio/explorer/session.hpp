@@ -26,7 +26,7 @@ struct LostSession {
 
 /// Writes each model that is not in a file once, and the list of all undo and redo states, into a
 /// separate folder below a root, shortly after they change; the folder is removed when the session
-/// ends properly.
+/// ends, unless set_stays().
 class SessionKeeper : public QObject {
   Q_OBJECT
  public:
@@ -51,6 +51,9 @@ class SessionKeeper : public QObject {
   void take_over(const LostSession& lost);
   /// Writes pending changes now, and waits for that.
   void flush();
+  /// Whether the session stays when it ends, as after a crash. False: it should, and cannot be
+  /// written.
+  bool set_stays(bool stays);
 
  Q_SIGNALS:
   /// The session cannot be stored, with the reason; emitted once.
@@ -74,7 +77,7 @@ class SessionKeeper : public QObject {
   Kept kept_;               ///< by file
   QStringList taken_over_;  ///< folders
   int next_file_ = 1;
-  bool failed_ = false;
+  bool failed_ = false, stays_ = false;
 };
 
 /// The models of a lost session, in all of its states.

@@ -2,6 +2,7 @@
 
 #include <QFileDialog>
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QPushButton>
 #include <QSettings>
 #include <QVBoxLayout>
@@ -10,6 +11,7 @@
 #include <turnscan/reconstruction/pipeline.hpp>
 #include <turnscan/workflow/config_file.hpp>
 
+#include "app/paths.hpp"
 #include "explorer/stage_runs.hpp"
 #include "widgets/option_form.hpp"
 #include "widgets/section.hpp"
@@ -53,9 +55,14 @@ const std::multimap<std::string, std::pair<std::string, QString>>& outputs() {
 StagePanel::StagePanel(QWidget* parent)
     : QWidget(parent),
       options_(std::make_unique<ReconstructOptions>()),
-      error_(new MessageLabel(this)) {
+      error_(new MessageLabel(this)),
+      notice_(quiet_label({}, this)) {
+  notice_->setObjectName("quiet");
+  notice_->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
+  connect(notice_, &QLabel::linkActivated, this, &StagePanel::reset);
   build();
   restore();
+  show_notice();
 }
 
 StagePanel::~StagePanel() = default;
@@ -93,15 +100,33 @@ QLayout* StagePanel::make_preset_buttons() {
     show_error(read ? QString() : QString::fromStdString(read.error().text()));
   });
   connect(save, &QPushButton::clicked, this, [this, filter] {
-    const QString path =
-        QFileDialog::getSaveFileName(this, tr("Save preset"), "preset.toml", filter);
+    const QString path = ask_save_path(this, tr("Save preset"), "preset.toml", filter);
     if (!path.isEmpty()) Q_EMIT save_preset(path);
   });
-  connect(reset, &QPushButton::clicked, this, [this] {
-    for (const auto& [stage, form] : forms_) form->reset_to_defaults();
-    show_error({});
-  });
+  connect(reset, &QPushButton::clicked, this, &StagePanel::reset);
   return row;
+}
+
+void StagePanel::reset() {
+  for (const auto& [stage, form] : forms_) form->reset_to_defaults();
+  show_error({});
+}
+
+/// And the fields of the method that is chosen.
+void StagePanel::show_notice() {
+  QStringList differing;
+  for (const auto& [stage, form] : forms_)
+    for (const QString& name : form->values().keys())
+      differing << translated_title(name.toStdString()).toHtmlEscaped();
+  const SurfaceMethod method = options_->surface.method;
+  for (const auto& [stage, form] : forms_) {
+    if (stage != "surface") continue;
+    form->show_fields("poisson-", method == SurfaceMethod::kPoisson);
+    form->show_fields("alpha", method == SurfaceMethod::kConcaveHull);
+  }
+  notice_->setVisible(!differing.isEmpty());
+  notice_->setText(tr("Not at the defaults: %1. <a href=\"reset\">Reset</a>")
+                       .arg(differing.mid(0, 4).join(", ") + (differing.size() > 4 ? ", …" : "")));
 }
 
 Section* StagePanel::make_section(const std::string& stage, OptionTable table) {
@@ -113,6 +138,7 @@ Section* StagePanel::make_section(const std::string& stage, OptionTable table) {
   section->body()->addWidget(form);
   forms_.emplace_back(stage, form);
   connect(form, &OptionForm::changed, this, &StagePanel::store);
+  connect(form, &OptionForm::changed, this, &StagePanel::show_notice);
   add_run_button(stage, *section);
   return section;
 }
@@ -162,11 +188,13 @@ void StagePanel::add_error(const QString& text) { error_->add_text(text); }
 
 QWidget* StagePanel::error() const { return error_; }
 
+QWidget* StagePanel::notice() const { return notice_; }
+
 QWidget* StagePanel::action() const { return mesh_; }
 
-void StagePanel::set_target(bool recording, bool cloud) {
-  mesh_->setEnabled(recording || cloud);
-  for (QPushButton* start : run_buttons_) start->setEnabled(recording || cloud);
+void StagePanel::set_target(bool has_input, bool cloud) {
+  mesh_->setEnabled(has_input);
+  for (QPushButton* start : run_buttons_) start->setEnabled(has_input);
   filter_->setEnabled(cloud);
 }
 
@@ -190,6 +218,7 @@ Result<> StagePanel::load_preset(const std::string& path) {
   *options_ = fresh;
   for (const auto& [stage, form] : forms_) form->refresh();
   store();
+  show_notice();
   return {};
 }
 

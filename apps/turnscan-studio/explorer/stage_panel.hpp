@@ -7,6 +7,7 @@
 #include <turnscan/core/result.hpp>
 #include <vector>
 
+class QLabel;
 class QLayout;
 class QPushButton;
 
@@ -38,9 +39,10 @@ class StagePanel : public QWidget {
   void add_error(const QString& text);
   /// Widgets that stay visible.
   QWidget* error() const;
+  QWidget* notice() const;
   QWidget* action() const;
-  /// Enables the buttons that apply to the selected model.
-  void set_target(bool recording, bool cloud);
+  /// Enables the buttons of the stages, and of the filter, which takes clouds only.
+  void set_target(bool has_input, bool cloud);
 
   /// TOML as read by the command line's --config.
   std::string preset_text() const;
@@ -59,6 +61,8 @@ class StagePanel : public QWidget {
   QLayout* make_preset_buttons();
   Section* make_section(const std::string& stage, OptionTable table);
   void restore();
+  void reset();
+  void show_notice();
   void add_run_button(const std::string& stage, Section& section);
 
   std::unique_ptr<ReconstructOptions> options_;
@@ -67,6 +71,7 @@ class StagePanel : public QWidget {
   QPushButton* filter_ = nullptr;
   QPushButton* mesh_ = nullptr;
   MessageLabel* error_;
+  QLabel* notice_;  ///< which options differ from the defaults
 };
 
 }  // namespace turnscan::studio

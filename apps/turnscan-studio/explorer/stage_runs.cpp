@@ -217,10 +217,11 @@ Result<StageRun> run_recording(const Model& model, const std::string& stage,
 
 Result<StageRun> run_cloud(const Model& model, const std::string& stage, ReconstructOptions options,
                            const RunContext& context) {
-  std::string note;
+  std::string note = fmt::format("made from the {} points of '{}', not from frames of a recording",
+                                 model.data->cloud.size(), model.name.toStdString());
   if (options.surface.method == SurfaceMethod::kVolumetric) {
     options.surface.method = SurfaceMethod::kPoisson;
-    note = "method volumetric needs the frames of a recording; a cloud takes poisson";
+    note += "; method volumetric needs frames, a cloud takes poisson";
   }
   options.crop.enabled = false;
   options.outliers.enabled = options.merge.cloud_outliers;
@@ -235,8 +236,15 @@ Result<StageRun> run_cloud(const Model& model, const std::string& stage, Reconst
 Result<StageRun> run_stage_of(const Model& model, const std::string& stage,
                               const ReconstructOptions& options, const RunContext& context) {
   switch (model.data->kind) {
-    case ModelKind::kRecording:
-      return run_recording(model, stage, options, context);
+    case ModelKind::kRecording: {
+      TURNSCAN_ASSIGN(StageRun run, run_recording(model, stage, options, context));
+      for (auto& [name, data] : run.models) {
+        auto made = std::make_shared<ModelData>(*data);
+        made->made_from = model.data;
+        data = std::move(made);
+      }
+      return run;
+    }
     case ModelKind::kCloud:
       return run_cloud(model, stage, options, context);
     case ModelKind::kMesh:

@@ -2,6 +2,13 @@
 <!DOCTYPE TS>
 <TS version="2.1" language="es_ES" sourcelanguage="en">
 <context>
+    <name>MessageLabel</name>
+    <message>
+        <source>Dismiss the message</source>
+        <translation>Cerrar el mensaje</translation>
+    </message>
+</context>
+<context>
     <name>Options</name>
     <message>
         <source>Aim height</source>
@@ -1421,10 +1428,6 @@ Nota: %1</translation>
         <translation>desconocido</translation>
     </message>
     <message>
-        <source>Put nothing on the table, take an averaged scan, then calibrate.</source>
-        <translation>Deje la mesa vacía, tome un escaneo promediado y calibre.</translation>
-    </message>
-    <message>
         <source>Share of the surface</source>
         <translation>Parte de la superficie</translation>
     </message>
@@ -1633,6 +1636,10 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
     <message>
         <source>Count contributions</source>
         <translation>Contar contribuciones</translation>
+    </message>
+    <message>
+        <source>Put nothing on the table and press Calibrate; or record at once: the object&apos;s motion shows where the table is.</source>
+        <translation>No ponga nada en la mesa y pulse Calibrar; o grabe sin más: el movimiento del objeto muestra dónde está la mesa.</translation>
     </message>
 </context>
 <context>
@@ -2113,10 +2120,6 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
         <translation>abrir %1</translation>
     </message>
     <message>
-        <source>Reconstruct</source>
-        <translation>Reconstruir</translation>
-    </message>
-    <message>
         <source>reconstruct</source>
         <translation>reconstruir</translation>
     </message>
@@ -2241,6 +2244,14 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     <message>
         <source>Stages</source>
         <translation>Etapas</translation>
+    </message>
+    <message>
+        <source>Voxelise keeps voxels with %1 points or more from now on</source>
+        <translation>Desde ahora, Voxelizar conserva los vóxeles con %1 puntos o más</translation>
+    </message>
+    <message>
+        <source>%1 was not opened</source>
+        <translation>%1 no se ha abierto</translation>
     </message>
 </context>
 <context>
@@ -2390,6 +2401,14 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     <message>
         <source>%1 s so far</source>
         <translation>%1 s hasta ahora</translation>
+    </message>
+    <message>
+        <source>%1 more</source>
+        <translation>%1 más</translation>
+    </message>
+    <message>
+        <source>Next:</source>
+        <translation>Después:</translation>
     </message>
 </context>
 <context>
@@ -2828,13 +2847,6 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
         <source>Redo %1</source>
         <translation>Rehacer %1</translation>
     </message>
-    <message numerus="yes">
-        <source>%n model(s) in no file: %1</source>
-        <translation>
-            <numerusform>%n modelo que no está en ningún archivo: %1</numerusform>
-            <numerusform>%n modelos que no están en ningún archivo: %1</numerusform>
-        </translation>
-    </message>
     <message>
         <source>A recording runs; it ends, and what it has is kept</source>
         <translation>Hay una grabación en curso; termina y se conserva lo grabado</translation>
@@ -2863,12 +2875,6 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
         <translation>¿Restaurar la última sesión?</translation>
     </message>
     <message>
-        <source>The last session did not end well. It had these models:
-%1</source>
-        <translation>La última sesión no terminó bien. Tenía estos modelos:
-%1</translation>
-    </message>
-    <message>
         <source>Restore</source>
         <translation>Restaurar</translation>
     </message>
@@ -2879,6 +2885,31 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     <message>
         <source>Ask again later</source>
         <translation>Preguntar más tarde</translation>
+    </message>
+    <message>
+        <source>All models are in files</source>
+        <translation>Todos los modelos están en archivos</translation>
+    </message>
+    <message>
+        <source>Folder for all models</source>
+        <translation>Carpeta para todos los modelos</translation>
+    </message>
+    <message>
+        <source>Save &amp;all…</source>
+        <translation>Guardar &amp;todo…</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n model(s) cannot be kept for the next start and are in no file: %1</source>
+        <translation>
+            <numerusform>%n modelo no puede conservarse para el próximo inicio y no está en ningún archivo: %1</numerusform>
+            <numerusform>%n modelos no pueden conservarse para el próximo inicio y no están en ningún archivo: %1</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The last session had these models:
+%1</source>
+        <translation>La última sesión tenía estos modelos:
+%1</translation>
     </message>
 </context>
 <context>
@@ -3106,6 +3137,10 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
         <source>&lt;br&gt;&lt;i&gt;Last run: %1, %2&lt;/i&gt;</source>
         <translation>&lt;br&gt;&lt;i&gt;Última vez: %1, %2&lt;/i&gt;</translation>
     </message>
+    <message>
+        <source>&lt;br&gt;&lt;i&gt;Not the default, %1: click to reset&lt;/i&gt;</source>
+        <translation>&lt;br&gt;&lt;i&gt;No es el valor predeterminado, %1: haga clic para restablecerlo&lt;/i&gt;</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::PlaneBox</name>
@@ -3244,10 +3279,6 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
         <translation>Grabar</translation>
     </message>
     <message>
-        <source>Record until the turns are done</source>
-        <translation>Grabar hasta completar las vueltas</translation>
-    </message>
-    <message>
         <source>Folder of the recording</source>
         <translation>Carpeta de la grabación</translation>
     </message>
@@ -3326,6 +3357,14 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     <message>
         <source>Progress of the recording</source>
         <translation>Progreso de la grabación</translation>
+    </message>
+    <message>
+        <source>Record until the turns are done; Space records and stops</source>
+        <translation>Grabar hasta completar las vueltas; la barra espaciadora graba y detiene</translation>
+    </message>
+    <message>
+        <source>It has content: the next recording goes into %1</source>
+        <translation>Tiene contenido: la próxima grabación va a %1</translation>
     </message>
 </context>
 <context>
@@ -3478,10 +3517,6 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
         <translation>Se escribió %1</translation>
     </message>
     <message>
-        <source>%1 frames a second, %2 points, %3 dropped</source>
-        <translation>%1 fotogramas por segundo, %2 puntos, %3 perdidos</translation>
-    </message>
-    <message>
         <source>Averaging: %1 of %2 frames</source>
         <translation>Promediando: %1 de %2 fotogramas</translation>
     </message>
@@ -3504,10 +3539,6 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     <message>
         <source>Calibrate</source>
         <translation>Calibrar</translation>
-    </message>
-    <message>
-        <source>Find the turntable in the averaged scan</source>
-        <translation>Buscar la mesa giratoria en el escaneo promediado</translation>
     </message>
     <message>
         <source>Options</source>
@@ -3602,6 +3633,46 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
     <message>
         <source>The device says itself where its table stands.</source>
         <translation>El propio dispositivo dice dónde está su mesa.</translation>
+    </message>
+    <message>
+        <source>%1 frames a second, %2 points</source>
+        <translation>%1 fotogramas por segundo, %2 puntos</translation>
+    </message>
+    <message>
+        <source>Find the turntable in an averaged scan, which is taken if there is none</source>
+        <translation>Buscar la mesa giratoria en un escaneo promediado, que se toma si no hay ninguno</translation>
+    </message>
+    <message>
+        <source>Correct</source>
+        <translation>Corregir</translation>
+    </message>
+    <message>
+        <source>The points are %1 off a circle (root mean square); %2 is the limit. Undo those that are not on the rim</source>
+        <translation>Los puntos distan %1 de un círculo (media cuadrática); el límite es %2. Deshaga los que no estén en el borde</translation>
+    </message>
+    <message>
+        <source>Platter: radius %1, known to %2</source>
+        <translation>Plato: radio %1, conocido con %2</translation>
+    </message>
+    <message>
+        <source>Platter: radius %1, how well is not known</source>
+        <translation>Plato: radio %1, con precisión desconocida</translation>
+    </message>
+    <message>
+        <source>The platter is not where the calibration has it</source>
+        <translation>El plato no está donde dice la calibración</translation>
+    </message>
+    <message>
+        <source>No platter is seen; the object&apos;s motion will show where the table is</source>
+        <translation>No se ve ningún plato; el movimiento del objeto mostrará dónde está la mesa</translation>
+    </message>
+    <message>
+        <source>not known: 3 points fit any circle</source>
+        <translation>desconocido: por 3 puntos siempre pasa un círculo</translation>
+    </message>
+    <message>
+        <source>The detected platter differs by %1 in its centre, %2 in its radius</source>
+        <translation>El plato detectado difiere en %1 en su centro y en %2 en su radio</translation>
     </message>
 </context>
 <context>
@@ -3922,6 +3993,10 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
         <source>Coverage of the selected scanner as it is turned:</source>
         <translation>Cobertura del escáner seleccionado al girarlo:</translation>
     </message>
+    <message>
+        <source>The scanner that was swept is no longer there</source>
+        <translation>El escáner del barrido ya no está</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::StagePanel</name>
@@ -3981,6 +4056,10 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
         <source>Run the stages up to this one; adds its cloud as a new model</source>
         <translation>Ejecutar las etapas hasta esta; añade su nube como modelo nuevo</translation>
     </message>
+    <message>
+        <source>Not at the defaults: %1. &lt;a href=&quot;reset&quot;&gt;Reset&lt;/a&gt;</source>
+        <translation>Distinto de lo predeterminado: %1. &lt;a href=&quot;reset&quot;&gt;Restablecer&lt;/a&gt;</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::SweepPanel</name>
@@ -4009,12 +4088,16 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
         <translation>Valores: desde..hasta/paso</translation>
     </message>
     <message>
-        <source>From, to and step, as for --sweep: -45deg..45deg/15deg</source>
-        <translation>Desde, hasta y paso, como en --sweep: -45deg..45deg/15deg</translation>
-    </message>
-    <message>
         <source>%1 at %2 covers most: %3 % of the surface</source>
         <translation>%1 en %2 cubre más: %3 % de la superficie</translation>
+    </message>
+    <message>
+        <source>From, to and step in degrees, e.g. -45..45/15</source>
+        <translation>Desde, hasta y paso en grados, p. ej. -45..45/15</translation>
+    </message>
+    <message>
+        <source>&apos;%1&apos; is not from..to/step in degrees, e.g. -45..45/15</source>
+        <translation>«%1» no es desde..hasta/paso en grados, p. ej. -45..45/15</translation>
     </message>
 </context>
 <context>
@@ -4131,6 +4214,14 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
     <message>
         <source> and more</source>
         <translation> y más</translation>
+    </message>
+    <message>
+        <source>%1 of %2 cells have at least %3 lines</source>
+        <translation>%1 de %2 celdas tienen al menos %3 líneas</translation>
+    </message>
+    <message>
+        <source>Lines through a cell</source>
+        <translation>Líneas por celda</translation>
     </message>
 </context>
 </TS>

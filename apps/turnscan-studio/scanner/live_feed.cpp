@@ -154,6 +154,7 @@ LiveState LiveFeed::take_state() {
   state_.picture = nullptr;
   state_.kept = nullptr;
   if (state_.seen) state_.seen->picture = nullptr;
+  state_.surface = nullptr;
   state_.finished.clear();
   state_.outcome.clear();
   state_.record_error.clear();

@@ -43,6 +43,10 @@ struct LiveState {
   std::shared_ptr<const Calibration> kept;
   DrawablePtr picture;       ///< of the last frame, sensor frame; nullptr once taken
   std::size_t averaged = 0;  ///< number of requested frames collected
+  /// As seen while there is no calibration, in an average of a few frames; nullopt: not looked
+  /// for, or not found, with the reason.
+  std::optional<DetectedPlatter> platter;
+  std::string no_platter;
   /// Comparison of the platter with the calibration; nullopt: not checked.
   std::optional<RigCheck> rig;
 
@@ -51,6 +55,7 @@ struct LiveState {
   std::optional<CoverageSummary> seen;  ///< nullopt: the rotation of the table is not known
   std::string record_error;
   std::string outcome;   ///< for a recording that has just ended: what was recorded and lost
+  DrawablePtr surface;   ///< its last one, table frame; nullptr: none
   std::string finished;  ///< its folder, if it exists; else empty
 };
 

@@ -86,6 +86,8 @@ void LiveFeed::Session::record(const RecordingRequest& request, const RunContext
     feed_.state_.seen.reset();
   }
   const auto result = capture_now(request, context);
+  take_surface();
+  const DrawablePtr last = mesh_.empty() ? nullptr : make_drawable(mesh_);
   surface_.reset();
   seen_.reset();
   motion_.reset();
@@ -101,6 +103,7 @@ void LiveFeed::Session::record(const RecordingRequest& request, const RunContext
     state.record_error = good.error().text();
   if (!result->recorded) return;
   state.outcome = lost_text(*result);
+  state.surface = last;
   state.finished = request.folder;
 }
 
@@ -202,18 +205,22 @@ void LiveFeed::Session::count_seen(const Frame& frame, double turned_rad) {
   seen_->add(kept, turned_rad);
 }
 
+void LiveFeed::Session::take_surface() {
+  auto update = surface_ ? surface_->take() : std::nullopt;
+  if (!update) return;
+  mesh_ = std::move(update->mesh);
+  // Once per surface: otherwise drawing would search for creases each time.
+  if (mesh_.normals.empty()) mesh_.normals = vertex_normals(mesh_);
+  ++surfaces_;
+}
+
 void LiveFeed::Session::show_seen(double turned_rad) {
   last_seen_ = Clock::now();
   CoverageSummary summary;
   summary.area_m2 = seen_->area_m2();
   summary.share_well = seen_->share_well();
   summary.sides = seen_->sides();
-  if (auto update = surface_->take()) {
-    mesh_ = std::move(update->mesh);
-    // Once per surface: otherwise drawing would search for creases each time.
-    if (mesh_.normals.empty()) mesh_.normals = vertex_normals(mesh_);
-    ++surfaces_;
-  }
+  take_surface();
   summary.surfaces = surfaces_;
   const Pose T_sensor_table =
       sensor_pose(header_, 0)->inverse() * Pose(Eigen::AngleAxisd(turned_rad, Vec3d::UnitY()));
@@ -279,6 +286,8 @@ void LiveFeed::Session::take(const Frame& frame) {
   if (!surface_) rig_watch_.take(frame, source_.info().header, calibration());
   const std::lock_guard lock(feed_.mutex_);
   feed_.state_.rig = rig_watch_.found();
+  feed_.state_.platter = rig_watch_.platter();
+  feed_.state_.no_platter = rig_watch_.no_platter();
   if (feed_.collected_.size() < feed_.wanted_) feed_.collected_.push_back(frame);
   feed_.state_.averaged = feed_.collected_.size();
 }

@@ -36,6 +36,7 @@ struct LiveFeed::Session {
   void place_by(const LiveMotion& motion);
   void see(const Frame& frame);
   void count_seen(const Frame& frame, double turned_rad);
+  void take_surface();
   void show_seen(double turned_rad);
   DrawablePtr draw_surface(const TriangleMesh& mesh, const Pose& T_sensor_table,
                            double& share_missing) const;

@@ -64,12 +64,16 @@ RecordPanel::RecordPanel(QWidget* parent)
   row->addWidget(folder_, 1);
   row->addWidget(browse);
   layout->addLayout(row);
+  free_folder_ = quiet_label({}, this);
+  layout->addWidget(free_folder_);
+  connect(folder_, &QLineEdit::textChanged, this, &RecordPanel::show_free_folder);
   build_next_pass(layout);
   build_options();
   reconstruct_ = new QCheckBox(tr("Make the mesh when it is done"), this);
   reconstruct_->setChecked(QSettings().value("scanner/reconstruct", true).toBool());
   layout->addWidget(reconstruct_);
-  record_ = button(tr("Record"), tr("Record until the turns are done"), footer_);
+  record_ =
+      button(tr("Record"), tr("Record until the turns are done; Space records and stops"), footer_);
   record_->setObjectName("record");
   record_->setEnabled(false);
   bar_ = new QProgressBar(footer_);
@@ -111,12 +115,21 @@ void RecordPanel::build_next_pass(QVBoxLayout* layout) {
   set_next_pass({}, {});
 }
 
+/// Where it is not the one that is typed.
+void RecordPanel::show_free_folder() {
+  const QString typed = typed_path(folder_->text()), free = free_folder(typed);
+  free_folder_->setVisible(next_pass_.isEmpty() && free != typed);
+  free_folder_->setText(
+      tr("It has content: the next recording goes into %1").arg(shown_path(free)));
+}
+
 void RecordPanel::set_next_pass(const QString& folder, const QString& advice) {
   next_pass_ = folder;
   resumes_ = false;
   advice_->setVisible(!folder.isEmpty());
   leave_->setVisible(!folder.isEmpty());
   folder_->setEnabled(folder.isEmpty());
+  show_free_folder();
   if (!folder.isEmpty())
     advice_->show_text(tr("The next pass goes into %1. %2").arg(shown_path(folder), advice));
 }

@@ -48,6 +48,8 @@ class RecordPanel : public QWidget {
   void forget_last();
   /// open: a sensor is available for recording.
   void show_state(const LiveState& state, bool open);
+  bool can_record() const { return record_->isEnabled(); }
+  void take_focus() { record_->setFocus(); }
   MotorPanel& motor() { return *motor_; }
   void store() const;
   /// Errors, progress and the button, which stay visible.
@@ -61,6 +63,7 @@ class RecordPanel : public QWidget {
   void build_options();
   void build_next_pass(QVBoxLayout* layout);
   QString seen_text(const CoverageSummary& seen) const;
+  void show_free_folder();
   QString progress_text(const LiveState& state) const;
 
   std::unique_ptr<Options> options_;
@@ -71,6 +74,7 @@ class RecordPanel : public QWidget {
   ParagraphLabel* advice_;
   QPushButton* leave_;
   QLineEdit* folder_;
+  QLabel* free_folder_;
   QCheckBox* reconstruct_;
   QPushButton* record_;
   QProgressBar* bar_;

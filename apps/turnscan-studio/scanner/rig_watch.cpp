@@ -1,22 +1,23 @@
 #include "scanner/rig_watch.hpp"
 
-#include <turnscan/core/sequence_views.hpp>
 #include <turnscan/core/stopwatch.hpp>
 #include <turnscan/turntable/detection/average.hpp>
 
 namespace turnscan::studio {
 
-namespace {
-
-Result<RigCheck> look_at(const MemoryFrames& frames, const Calibration& calibration,
-                         const RunContext& context) {
+Result<RigWatch::Look> RigWatch::look_at(const MemoryFrames& frames, const Calibration* calibration,
+                                         const RunContext& context) {
   TURNSCAN_ASSIGN(
       const AveragedScan scan,
       average_frames(frames, spread_positions(frames, 0, frames.frames().size()), {}, context));
-  return check_rig(scan, calibration, context);
+  Look out;
+  if (calibration) {
+    TURNSCAN_ASSIGN(out.rig, check_rig(scan, *calibration, context));
+  } else {
+    TURNSCAN_ASSIGN(out.platter, detect_platter(scan, {}, context));
+  }
+  return out;
 }
-
-}  // namespace
 
 RigWatch::~RigWatch() {
   context_.cancel();
@@ -29,11 +30,14 @@ void RigWatch::take(const Frame& frame, const SequenceHeader& header,
     calibration_ = calibration;
     frames_.clear();
     found_.reset();
+    platter_.reset();
+    no_platter_.clear();
     outdated_ = look_.valid();
     last_ = Clock::now() - std::chrono::minutes(1);
   }
   collect_result();
-  if (!calibration_ || look_.valid() || seconds_since(last_) < kPause_s) return;
+  if (!calibration_ && header.turntable) return;  // the device says where it is
+  if (look_.valid() || seconds_since(last_) < kPause_s) return;
   if (frame.info.sensor != 0 || frame.info.status != FrameStatus::kOk) return;
   frames_.push_back(frame);
   frames_.back().color = ColorImage();
@@ -43,7 +47,7 @@ void RigWatch::take(const Frame& frame, const SequenceHeader& header,
   look_ = std::async(
       std::launch::async,
       [frames = MemoryFrames(std::move(first), std::exchange(frames_, {})), known = calibration_,
-       context = context_] { return look_at(frames, *known, context); });
+       context = context_] { return look_at(frames, known.get(), context); });
 }
 
 void RigWatch::collect_result() {
@@ -51,9 +55,12 @@ void RigWatch::collect_result() {
     return;
   auto made = look_.get();
   last_ = Clock::now();
+  if (std::exchange(outdated_, false)) return;
   // If nothing could be compared, the user is not disturbed.
-  if (made && !outdated_) found_ = std::move(*made);
-  outdated_ = false;
+  if (made && made->rig) found_ = std::move(made->rig);
+  if (calibration_) return;
+  platter_ = made ? made->platter : std::nullopt;
+  no_platter_ = made ? std::string() : made.error().message;
 }
 
 }  // namespace turnscan::studio

@@ -3,6 +3,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -105,9 +106,15 @@ void ScannerMode::build_device() {
   section->body()->addLayout(row);
   section->body()->addWidget(live_text_);
   section->body()->addWidget(device_error_);
-  const auto chosen = [this] { record_->set_device(chosen_uri()); };
-  connect(device_, QOverload<int>::of(&QComboBox::activated), this, chosen);
-  connect(device_->lineEdit(), &QLineEdit::editingFinished, this, chosen);
+  connect(device_, QOverload<int>::of(&QComboBox::activated), this,
+          [this] { feed_->running() ? play_chosen() : record_->set_device(chosen_uri()); });
+  connect(device_->lineEdit(), &QLineEdit::returnPressed, this, &ScannerMode::play_chosen);
+  // What is typed and left is not what plays.
+  connect(device_->lineEdit(), &QLineEdit::editingFinished, this, [this] {
+    if (feed_->running() && !play_again_ && !device_->hasFocus())
+      device_->setEditText(played_text_);
+    if (!feed_->running()) record_->set_device(chosen_uri());
+  });
   connect(play_, &QPushButton::clicked, this, &ScannerMode::toggle_play);
   connect(live_, &QPushButton::clicked, this, [this] { set_still(false); });
   connect(filter_, &QCheckBox::toggled, this, [this](bool on) {
@@ -185,14 +192,38 @@ void ScannerMode::list_devices() {
                   const auto drivers = list_drivers();
                   TURNSCAN_TRY(context.check());
                   return Finish([this, drivers] {
+                    const bool untouched = device_->currentIndex() == 0 && !feed_->running() &&
+                                           device_->currentText() == device_->itemText(0);
                     int at = 0;
                     for (const DriverState& driver : drivers)
                       for (const FoundDevice& device : driver.devices)
                         device_->insertItem(at++, QString::fromStdString(device.model),
                                             QString::fromStdString(device.uri));
+                    // A sensor that is plugged in is meant, rather than a virtual one.
+                    if (untouched && at > 0) device_->setCurrentIndex(0);
+                    if (untouched) record_->set_device(chosen_uri());
+                    if (std::exchange(plays_when_listed_, false)) play_when_listed();
                   });
                 },
                 {});
+}
+
+void ScannerMode::play_when_listed() {
+  if (feed_->running()) return;
+  plays_when_listed_ = quick_->busy();
+  if (!plays_when_listed_) toggle_play();
+}
+
+void ScannerMode::play_chosen() {
+  if (recording_) return device_->setEditText(played_text_);
+  if (feed_->running() && chosen_uri() == played_uri_) return;
+  play_again_ = feed_->running();
+  toggle_play();
+}
+
+void ScannerMode::keyPressEvent(QKeyEvent* event) {
+  if (event->key() != Qt::Key_Space || event->isAutoRepeat()) return Mode::keyPressEvent(event);
+  if (recording_ || record_->can_record()) toggle_record();
 }
 
 void ScannerMode::set_device(const QString& uri) {
@@ -223,6 +254,7 @@ void ScannerMode::toggle_play() {
     return;
   }
   take_device(chosen_uri());
+  played_text_ = device_->currentText();
   kept_is_outdated_ = false;
   record_->forget_last();
   set_still(false);
@@ -248,6 +280,7 @@ void ScannerMode::poll() {
     record_->set_next_pass({}, {});
     Q_EMIT status(tr("Wrote %1").arg(shown_path(folder)));
     if (state.record_error.empty()) {
+      if (record_->reconstruct() && state.surface) Q_EMIT surface_left(state.surface);
       Q_EMIT recording_made(folder, record_->reconstruct());
     } else {
       Q_EMIT recording_broken_off(folder);
@@ -266,23 +299,29 @@ void ScannerMode::ended() {
   show_empty_text();
   live_text_->setText(tr("Not playing"));
   average_->setEnabled(false);
+  calibrate_->setEnabled(scan_ != nullptr);
+  chip_->setVisible(false);
   record_->show_state({}, false);
+  if (std::exchange(play_again_, false)) toggle_play();
 }
 
 void ScannerMode::show_state(const LiveState& state) {
   if (!state.error.empty()) device_error_->show_text(QString::fromStdString(state.error));
+  const bool opens = state.open && !record_->can_record();
   record_->show_state(state, state.open);
+  if (opens && (play_->hasFocus() || view().hasFocus() || !window()->focusWidget()))
+    record_->take_focus();  // for Space
   show_seen(state);
   show_rig(state.open ? state.rig : std::nullopt);
   if (!state.open) return;
   if (state.kept && !calibration_ && !kept_is_outdated_) show_calibration(state.kept, true);
+  show_platter(state);
   average_->setEnabled(!averaging_);
+  calibrate_->setEnabled(!averaging_ || !calibrates_);
   filter_->setEnabled(state.table_known);
   if (play_->isEnabled())
-    live_text_->setText(tr("%1 frames a second, %2 points, %3 dropped")
-                            .arg(state.fps, 0, 'f', 1)
-                            .arg(grouped(state.points))
-                            .arg(qulonglong(state.dropped)));
+    live_text_->setText(
+        tr("%1 frames a second, %2 points").arg(state.fps, 0, 'f', 1).arg(grouped(state.points)));
   if (state.table_known && !calibration_) note_known_table();
   if (averaging_)
     calibration_text_->setText(

@@ -50,6 +50,8 @@ class ScannerMode : public Mode {
   /// Plays the device of an unfinished recording, which the next click goes on with.
   void resume_recording(const QString& folder);
   void set_device(const QString& uri);
+  /// Plays the chosen device, once those that there are have been looked for.
+  void play_when_listed();
   RecordPanel& recording() { return *record_; }
   bool is_recording() const { return recording_; }
   const LiveUpdates& updates() const { return updates_; }
@@ -65,6 +67,8 @@ class ScannerMode : public Mode {
 
  protected:
   void showEvent(QShowEvent* event) override;
+  /// Space records and stops.
+  void keyPressEvent(QKeyEvent* event) override;
 
  private:
   struct CalibrationOptions;
@@ -83,6 +87,8 @@ class ScannerMode : public Mode {
   void take_device(const QString& uri);
   void forget_calibration();
   void toggle_play();
+  /// Plays what is chosen in place of what plays.
+  void play_chosen();
   void poll();
   void ended();
   void show_state(const LiveState& state);
@@ -95,8 +101,13 @@ class ScannerMode : public Mode {
   void calibrate();
   void start_picking(bool on);
   void fit_picks();
+  void clear_picks();
+  /// Why points are not used; empty: they are.
+  QString problem_of_picks(const Calibration& picked) const;
+  void show_platter(const LiveState& state);
   void show_calibration(std::shared_ptr<const Calibration> calibration, bool kept = false);
   void draw_calibration();
+  void clear_calibration();
   void drop_kept_calibration();
   void note_known_table();
   void toggle_record();
@@ -107,18 +118,20 @@ class ScannerMode : public Mode {
   std::unique_ptr<PickTool> pick_tool_;
   std::shared_ptr<const AveragedScan> scan_;
   std::shared_ptr<const Calibration> calibration_;
-  QString played_uri_;
+  QString played_uri_, played_text_;
   bool for_next_device_ = false;   ///< the calibration was loaded before a device was opened
   bool is_kept_ = false;           ///< the calibration is that of an earlier recording
   bool kept_is_outdated_ = false;  ///< the stored calibration of the current device does not fit
   std::vector<Vec3d> picks_;
+  std::shared_ptr<const Calibration> before_picks_;  ///< used without them
+  std::optional<DetectedPlatter> platter_;           ///< the last that was detected
 
   JobRunner* quick_;
   QTimer* poll_;
   QComboBox* device_;
   QPushButton *play_, *live_, *average_, *calibrate_, *pick_, *undo_pick_, *save_;
   QCheckBox* filter_;
-  QLabel *live_text_, *calibration_text_;
+  QLabel *live_text_, *calibration_text_, *chip_;
   RecordPanel* record_;
   QWidget* banner_;
   MessageLabel* banner_text_;
@@ -127,6 +140,9 @@ class ScannerMode : public Mode {
   OptionForm *average_form_, *detect_form_;
   MessageLabel *device_error_, *calibration_error_;
   int live_item_ = 0, scan_item_ = 0, ring_item_ = 0, picks_item_ = 0, seen_item_ = 0;
+  bool play_again_ = false;  ///< another device was chosen; this one ends
+  bool plays_when_listed_ = false;
+  bool calibrates_ = false;  ///< once the averaged scan is there
   bool averaging_ = false, still_ = false, framed_ = false, recording_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QStyle>
 #include <QVBoxLayout>
 #include <cmath>
 #include <turnscan/capture/session/device_calibration.hpp>
@@ -34,7 +35,9 @@ QString mm(double metres, int digits = 2) {
 }
 
 QString first_steps() {
-  return QObject::tr("Put nothing on the table, take an averaged scan, then calibrate.");
+  return QObject::tr(
+      "Put nothing on the table and press Calibrate; or record at once: the object's motion shows "
+      "where the table is.");
 }
 
 }  // namespace
@@ -43,15 +46,21 @@ void ScannerMode::build_calibration() {
   auto* section = new Section(tr("2  Calibration"), true, this);
   auto* row = new QHBoxLayout;
   average_ = button(tr("Averaged scan"), tr("Average frames of what stands still"), section);
-  calibrate_ =
-      primary_button(tr("Calibrate"), tr("Find the turntable in the averaged scan"), section);
+  calibrate_ = primary_button(
+      tr("Calibrate"),
+      tr("Find the turntable in an averaged scan, which is taken if there is none"), section);
   row->addWidget(average_);
   row->addWidget(calibrate_);
   average_->setEnabled(false);
   calibrate_->setEnabled(false);
   connect(average_, &QPushButton::clicked, this, &ScannerMode::start_average);
   connect(calibrate_, &QPushButton::clicked, this, &ScannerMode::calibrate);
-  QLayout* picking = make_pick_buttons(section);
+  chip_ = new QLabel(section);
+  chip_->setObjectName("platter_chip");
+  chip_->setWordWrap(true);
+  chip_->setVisible(false);
+  auto* correct = new Section(tr("Correct"), false, section, Section::kNested);
+  correct->body()->addLayout(make_pick_buttons(correct));
   QLayout* files = make_calibration_files(section);
   calibration_text_ = quiet_label(first_steps(), section);
   calibration_text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -63,11 +72,12 @@ void ScannerMode::build_calibration() {
   details->body()->addWidget(detect_form_);
   average_form_->restore("scanner/average");
   detect_form_->restore("scanner/detect");
+  section->body()->addWidget(chip_);
   section->body()->addLayout(row);
-  section->body()->addLayout(picking);
-  section->body()->addLayout(files);
   section->body()->addWidget(calibration_text_);
   section->body()->addWidget(calibration_error_);
+  section->body()->addLayout(files);
+  section->body()->addWidget(correct);
   section->body()->addWidget(details);
   panel()->addWidget(section);
 }
@@ -99,8 +109,7 @@ QLayout* ScannerMode::make_calibration_files(QWidget* parent) {
     if (!path.isEmpty()) load_calibration(path);
   });
   connect(save_, &QPushButton::clicked, this, [this, filter] {
-    const QString path =
-        QFileDialog::getSaveFileName(this, tr("Save calibration"), "calibration.json", filter);
+    const QString path = ask_save_path(this, tr("Save calibration"), "calibration.json", filter);
     if (!path.isEmpty()) save_calibration(path);
   });
   return row;
@@ -157,11 +166,15 @@ void ScannerMode::show_average(std::shared_ptr<const AveragedScan> scan,
                      .arg(mm(scan_->typical_noise_m()));
   if (!check.empty()) text += "\n" + QString::fromStdString(check);
   calibration_text_->setText(text);
+  if (std::exchange(calibrates_, false)) calibrate();
 }
 
 void ScannerMode::calibrate() {
   calibration_error_->show_text(detect_form_->first_error());
-  if (!scan_ || !detect_form_->valid()) return;
+  if (!detect_form_->valid()) return;
+  calibrates_ = !scan_ || averaging_;
+  if (calibrates_ && !averaging_) start_average();
+  if (calibrates_) return;
   pick_->setChecked(false);
   const bool live = !device_->currentText().startsWith("replay:");
   jobs().start(
@@ -175,7 +188,9 @@ void ScannerMode::calibrate() {
         TURNSCAN_ASSIGN(Calibration found, parse_calibration(calibration_json(detected)));
         auto shared = std::make_shared<const Calibration>(std::move(found));
         const DrawablePtr residuals = averaged_picture(*scan, &shared->table);
-        return Finish([this, shared, residuals] {
+        return Finish([this, platter, shared, residuals] {
+          clear_picks();
+          platter_ = platter;
           view().replace(scan_item_, residuals);
           view().set_legend(residual_legend());
           set_still(true);
@@ -191,10 +206,10 @@ void ScannerMode::calibrate() {
 void ScannerMode::start_picking(bool on) {
   view().set_tool(on ? pick_tool_.get() : nullptr);
   view().set_hint(on ? tr("Click points on the rim of the platter, at least 3") : QString());
-  if (on) set_still(true);
-  if (on) picks_.clear();
-  undo_pick_->setEnabled(false);
-  fit_picks();
+  if (!on) return;
+  set_still(true);
+  clear_picks();
+  before_picks_ = calibration_;
 }
 
 void ScannerMode::add_pick(const Vec3d& point) {
@@ -206,6 +221,22 @@ void ScannerMode::undo_pick() {
   if (picks_.empty()) return;
   picks_.pop_back();
   fit_picks();
+}
+
+void ScannerMode::clear_picks() {
+  picks_.clear();
+  view().remove(picks_item_);
+  picks_item_ = 0;
+  undo_pick_->setEnabled(false);
+  Q_EMIT undo_changed();
+}
+
+QString ScannerMode::problem_of_picks(const Calibration& picked) const {
+  if (!(picked.residual_rms_m > kMovedShift_m)) return {};
+  return tr("The points are %1 off a circle (root mean square); %2 is the limit. Undo those that "
+            "are "
+            "not on the rim")
+      .arg(mm(picked.residual_rms_m), mm(kMovedShift_m, 0));
 }
 
 void ScannerMode::fit_picks() {
@@ -222,14 +253,55 @@ void ScannerMode::fit_picks() {
     style.point_scale = 5.0;
     picks_item_ = view().add(make_drawable(cloud), style);
   }
-  if (picks_.size() < 3) {
-    if (!picks_.empty())
-      calibration_text_->setText(tr("%1 of at least 3 points").arg(picks_.size()));
-    return;
+  calibration_error_->show_text({});
+  QString problem;
+  if (picks_.size() >= 3) {
+    auto found = calibrate_from_points(picks_, Vec3d::Zero());
+    problem = found ? problem_of_picks(*found) : QString::fromStdString(found.error().text());
+    if (problem.isEmpty())
+      return show_calibration(std::make_shared<const Calibration>(std::move(*found)));
   }
-  auto found = calibrate_from_points(picks_, Vec3d::Zero());
-  calibration_error_->show_text(found ? QString() : QString::fromStdString(found.error().text()));
-  if (found) show_calibration(std::make_shared<const Calibration>(std::move(*found)));
+  // Without good points, what was there before them holds.
+  before_picks_ ? show_calibration(before_picks_) : clear_calibration();
+  calibration_error_->show_text(problem);
+  if (picks_.size() < 3)
+    calibration_text_->setText(tr("%1 of at least 3 points").arg(picks_.size()));
+}
+
+/// What is known of the platter while the sensor plays.
+void ScannerMode::show_platter(const LiveState& state) {
+  if (state.platter) platter_ = state.platter;
+  QString text;
+  // A platter known to a quarter of the shift that counts as moved can be checked for it.
+  const auto grade = [](double sigma_m) { return sigma_m <= kMovedShift_m / 4 ? "good" : "fair"; };
+  QString how = "none";
+  const auto known = [&](double radius_m, double sigma_m, double center_sigma_m) {
+    how = grade(center_sigma_m);
+    return std::isfinite(sigma_m)
+               ? tr("Platter: radius %1, known to %2").arg(mm(radius_m, 1), mm(sigma_m, 1))
+               : tr("Platter: radius %1, how well is not known").arg(mm(radius_m, 1));
+  };
+  if (rig_ && rig_->moved) {
+    text = tr("The platter is not where the calibration has it");
+    how = "bad";
+  } else if (calibration_ && calibration_->table.radius_m) {
+    text = known(*calibration_->table.radius_m, calibration_->radius_sigma_m,
+                 calibration_->center_sigma_m);
+  } else if (state.platter) {
+    text = known(state.platter->radius_m, state.platter->radius_sigma_m,
+                 state.platter->center_sigma_m);
+  } else if (!state.no_platter.empty()) {
+    text = tr("No platter is seen; the object's motion will show where the table is");
+    chip_->setToolTip(QString::fromStdString(state.no_platter));
+    how = "fair";
+  }
+  chip_->setVisible(!text.isEmpty() && !state.recording);
+  if (text == chip_->text() && how == chip_->property("grade").toString()) return;
+  if (how != "fair") chip_->setToolTip({});
+  chip_->setText(text);
+  chip_->setProperty("grade", how);
+  chip_->style()->unpolish(chip_);
+  chip_->style()->polish(chip_);
 }
 
 void ScannerMode::show_calibration(std::shared_ptr<const Calibration> calibration, bool kept) {
@@ -239,9 +311,15 @@ void ScannerMode::show_calibration(std::shared_ptr<const Calibration> calibratio
   save_->setEnabled(true);
   filter_->setEnabled(true);
   const Calibration& c = *calibration_;
+  const bool exact = c.method == CalibrationMethod::kPicked && !std::isfinite(c.radius_sigma_m);
   QString text = tr("By %1: radius %2, error %3 (root mean square)")
                      .arg(QString::fromStdString(std::string(name_of(c.method))),
-                          mm(c.table.radius_m.value_or(std::nan("")), 1), mm(c.residual_rms_m));
+                          mm(c.table.radius_m.value_or(std::nan("")), 1),
+                          exact ? tr("not known: 3 points fit any circle") : mm(c.residual_rms_m));
+  if (c.method == CalibrationMethod::kPicked && platter_)
+    text += "\n" + tr("The detected platter differs by %1 in its centre, %2 in its radius")
+                       .arg(mm((platter_->center_m - c.table.center_m).norm(), 1),
+                            mm(std::abs(platter_->radius_m - c.table.radius_m.value_or(0.0)), 1));
   if (kept)
     text +=
         tr("\nFrom the last recording with this device. Calibrate anew if sensor or table "
@@ -252,41 +330,40 @@ void ScannerMode::show_calibration(std::shared_ptr<const Calibration> calibratio
   draw_calibration();
 }
 
-void ScannerMode::forget_calibration() {
-  pick_->setChecked(false);
-  picks_.clear();
-  for (int* item : {&scan_item_, &ring_item_, &picks_item_}) {
-    view().remove(*item);
-    *item = 0;
-  }
-  view().set_legend({});
-  scan_.reset();
-  calibration_.reset();
-  feed_->set_calibration(nullptr);
-  filter_->setChecked(false);
-  for (QWidget* widget :
-       std::initializer_list<QWidget*>{calibrate_, pick_, undo_pick_, save_, filter_})
-    widget->setEnabled(false);
-  calibration_error_->show_text({});
-  calibration_text_->setText(first_steps());
-  calibration_text_->setToolTip({});
-}
-
-/// The user did not ask for it: it is dropped without confirmation, as in `scan`.
-void ScannerMode::drop_kept_calibration() {
+void ScannerMode::clear_calibration() {
   view().remove(ring_item_);
   ring_item_ = 0;
   calibration_.reset();
   feed_->set_calibration(nullptr);
   is_kept_ = false;
-  kept_is_outdated_ = true;
   filter_->setChecked(false);
   filter_->setEnabled(false);
   save_->setEnabled(false);
+  calibration_text_->setToolTip({});
+}
+
+void ScannerMode::forget_calibration() {
+  pick_->setChecked(false);
+  clear_picks();
+  clear_calibration();
+  view().remove(scan_item_);
+  scan_item_ = 0;
+  view().set_legend({});
+  scan_.reset();
+  platter_.reset();
+  before_picks_.reset();
+  for (QWidget* widget : {calibrate_, pick_}) widget->setEnabled(false);
+  calibration_error_->show_text({});
+  calibration_text_->setText(first_steps());
+}
+
+/// The user did not ask for it: it is dropped without confirmation, as in `scan`.
+void ScannerMode::drop_kept_calibration() {
+  clear_calibration();
+  kept_is_outdated_ = true;
   const QString why = tr("The calibration of the last recording is not used: %1")
                           .arg(QString::fromStdString(rig_->text));
   calibration_text_->setText(why);
-  calibration_text_->setToolTip({});
   rig_.reset();
   Q_EMIT status(why);
 }

@@ -1,7 +1,6 @@
 #include "simulator/scanner_editor.hpp"
 
 #include <QComboBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QPushButton>
@@ -10,6 +9,7 @@
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/sensors/scanner_file.hpp>
 
+#include "app/paths.hpp"
 #include "widgets/no_wheel.hpp"
 #include "widgets/option_form.hpp"
 #include "widgets/section.hpp"
@@ -153,8 +153,8 @@ void ScannerEditor::fill(const QString& preset_or_file) {
 }
 
 void ScannerEditor::save_dialog() {
-  const QString path = QFileDialog::getSaveFileName(this, tr("Save as scanner"), "scanner.toml",
-                                                    tr("Scanners (*.toml)"));
+  const QString path =
+      ask_save_path(this, tr("Save as scanner"), "scanner.toml", tr("Scanners (*.toml)"));
   if (!path.isEmpty()) save_as(path);
 }
 

@@ -100,7 +100,7 @@ void SimulatorMode::build_options() {
     if (!path.isEmpty()) load_scene(path);
   });
   connect(save, &QPushButton::clicked, this, [this, filter] {
-    const QString path = QFileDialog::getSaveFileName(this, tr("Save scene"), "scene.toml", filter);
+    const QString path = ask_save_path(this, tr("Save scene"), "scene.toml", filter);
     if (!path.isEmpty()) save_scene(path);
   });
   for (SceneTable& table : describe(*scene_)) {

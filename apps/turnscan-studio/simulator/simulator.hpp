@@ -115,6 +115,7 @@ class SimulatorMode : public Mode {
   QTimer* poll_;
   QTimer* pause_;  ///< after which a change by a slider or by typing is one step of undo
   QComboBox* object_;
+  const RigScanner* swept_ = nullptr;  ///< compared only: it may be gone
   QListWidget* list_;
   QStackedWidget* places_;
   QLineEdit* folder_;

@@ -277,6 +277,7 @@ void SimulatorMode::build_sweep() {
     const int row = list_->currentRow();
     if (row < 0)
       return fail(ErrorCode::kInvalidOption, "there is no scanner; add one and select it");
+    swept_ = scanners_[std::size_t(row)].get();
     SceneDescription scene = this->scene();
     scene.placement = scanners_[std::size_t(row)]->editor->placement();
     scene.scanners.clear();
@@ -295,12 +296,14 @@ void SimulatorMode::build_sweep() {
   panel()->addWidget(section);
   connect(sweep, &SweepPanel::best_wanted, this,
           [this](const std::string& option, const std::string& value) {
-            const int row = list_->currentRow();
-            if (row < 0) return;
-            RigScanner& scanner = *scanners_[std::size_t(row)];
-            (void)describe(scanner.editor->placement()).set(option, value);
-            drag_scanner(scanner);
-            place_changed();
+            for (std::size_t i = 0; i < scanners_.size(); ++i) {
+              if (scanners_[i].get() != swept_) continue;
+              list_->setCurrentRow(int(i));
+              (void)describe(scanners_[i]->editor->placement()).set(option, value);
+              drag_scanner(*scanners_[i]);
+              return place_changed();
+            }
+            Q_EMIT status(tr("The scanner that was swept is no longer there"));
           });
 }
 

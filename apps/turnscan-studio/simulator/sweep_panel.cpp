@@ -5,6 +5,7 @@
 #include <QLineEdit>
 #include <QPainter>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <algorithm>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/workflow/page/svg_plot.hpp>
@@ -83,7 +84,7 @@ SweepPanel::SweepPanel(JobRunner& jobs, Scene scene, const CoverageMapOptions& c
       scene_(std::move(scene)),
       coverage_(coverage),
       option_(new QComboBox(this)),
-      values_(new QLineEdit("-45deg..45deg/15deg", this)),
+      values_(new QLineEdit("-45..45/15", this)),
       run_(button(tr("Sweep"), tr("Find the coverage with each of the values"), this)),
       use_(button(tr("Use the best"), tr("Place the scanner where it covers most"), this)),
       plot_(new SweepPlot(this)),
@@ -96,7 +97,7 @@ SweepPanel::SweepPanel(JobRunner& jobs, Scene scene, const CoverageMapOptions& c
     option_->addItem(translated_title(name), QString(name));
   values_->setObjectName("sweep_values");
   values_->setAccessibleName(tr("Values: from..to/step"));
-  values_->setToolTip(tr("From, to and step, as for --sweep: -45deg..45deg/15deg"));
+  values_->setToolTip(tr("From, to and step in degrees, e.g. -45..45/15"));
   plot_->setFixedHeight(190);
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
@@ -117,12 +118,22 @@ SweepPanel::SweepPanel(JobRunner& jobs, Scene scene, const CoverageMapOptions& c
 }
 
 void SweepPanel::run() {
+  static const QRegularExpression form(R"(^\s*(\S+)\s*\.\.\s*([^/\s]+)\s*/\s*(\S+)\s*$)");
+  const auto typed = form.match(values_->text());
+  if (!typed.hasMatch())
+    return error_->show_text(
+        tr("'%1' is not from..to/step in degrees, e.g. -45..45/15").arg(values_->text()));
+  QString text = option_->currentData().toString() + "=";
+  for (int i = 1; i <= 3; ++i) {
+    const QString value = typed.captured(i);
+    const bool plain = parse_number(value.toStdString()).has_value();
+    text += value + (plain ? "deg" : "") + (i == 1 ? ".." : i == 2 ? "/" : "");
+  }
   auto scene = scene_();
-  const std::string text = option_->currentData().toString().toStdString() + "=" +
-                           values_->text().trimmed().toStdString();
-  const auto range =
-      scene.and_then([&](const SceneDescription& made) { return parse_sweep_range(text, made); });
-  error_->show_text(range ? QString() : QString::fromStdString(range.error().text()));
+  const auto range = scene.and_then(
+      [&](const SceneDescription& made) { return parse_sweep_range(text.toStdString(), made); });
+  static const QRegularExpression flag("--sweep( [a-z]+)?: ");
+  error_->show_text(range ? QString() : QString::fromStdString(range.error().text()).remove(flag));
   if (!range) return;
   jobs_.start(
       tr("Sweep"), this,

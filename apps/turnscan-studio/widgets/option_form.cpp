@@ -103,7 +103,7 @@ OptionForm::OptionForm(OptionTable table, const QStringList& hide, QWidget* pare
 
 void OptionForm::add_row(const OptionField& field, bool with_slider) {
   const std::size_t index = rows_.size();
-  rows_.push_back({&field, nullptr, nullptr, nullptr, field.get(), {}});
+  rows_.push_back({&field, nullptr, nullptr, nullptr, nullptr, field.get(), {}});
   Row& row = rows_.back();
   row.editor = make_editor(index);
   row.editor->setObjectName("option:" + QString::fromStdString(field.name));
@@ -116,6 +116,12 @@ void OptionForm::add_row(const OptionField& field, bool with_slider) {
     auto* label = new QLabel(translated_title(field.name), this);
     label->setToolTip(tip_of(field));
     label->setBuddy(row.editor);
+    row.label = label;
+    connect(label, &QLabel::linkActivated, this, [this, index] {
+      show_value(rows_[index]);  // an invalid text goes, too
+      take(index, QString::fromStdString(rows_[index].initial));
+      show_value(rows_[index]);
+    });
     label->setWordWrap(true);
     grid_->addWidget(label, line, 0);
     grid_->addWidget(row.editor, line, 1);
@@ -191,7 +197,12 @@ void OptionForm::show_on_slider(const Row& row) {
       std::abs(value_at(*row.field, row.slider->value()) - *value) <= 1e-9 * std::abs(*value))
     return;
   const QSignalBlocker quiet(row.slider);
-  row.slider->setValue(value ? step_of(*row.field, *value) : 0);
+  // In the middle and pale where the value is automatic: it is none of the ends.
+  row.slider->setValue(value ? step_of(*row.field, *value) : row.slider->maximum() / 2);
+  if (row.slider->property("automatic").toBool() == !value) return;
+  row.slider->setProperty("automatic", !value);
+  row.slider->style()->unpolish(row.slider);
+  row.slider->style()->polish(row.slider);
 }
 
 void OptionForm::take(std::size_t index, const QString& text) {
@@ -207,7 +218,24 @@ void OptionForm::take(std::size_t index, const QString& text) {
   if (!set) (void)field.set(before);
   show_problem(row);
   show_on_slider(row);
+  mark(row);
   Q_EMIT changed();
+}
+
+/// A slider's scanner has no defaults but those of its preset.
+void OptionForm::mark(const Row& row) {
+  if (!row.label || row.slider) return;
+  const QString title = translated_title(row.field->name);
+  const bool differs = row.field->get() != row.initial;
+  row.label->setText(differs ? QString("<a href=\"reset\">%1 ↺</a>").arg(title.toHtmlEscaped())
+                             : title);
+  row.label->setTextInteractionFlags(  // a stop of Tab only while it is a link
+      differs ? Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard
+              : Qt::TextInteractionFlags(Qt::NoTextInteraction));
+  row.label->setToolTip(tip_of(*row.field) +
+                        (differs ? tr("<br><i>Not the default, %1: click to reset</i>")
+                                       .arg(QString::fromStdString(row.initial).toHtmlEscaped())
+                                 : QString()));
 }
 
 void OptionForm::show_problem(Row& row) {
@@ -224,6 +252,7 @@ void OptionForm::show_value(const Row& row) {
   const QString value = QString::fromStdString(row.field->get());
   const QSignalBlocker quiet(row.editor);
   show_on_slider(row);
+  mark(row);
   if (row.field->is_flag) {
     static_cast<QCheckBox*>(row.editor)->setChecked(value == "true");
   } else if (!row.field->choices.empty()) {
@@ -266,6 +295,12 @@ void OptionForm::show_used(const QString& field, const QString& value, const QSt
     edit->setToolTip(tip_of(*row.field) +
                      tr("<br><i>Last run: %1, %2</i>").arg(value, why.toHtmlEscaped()));
   }
+}
+
+void OptionForm::show_fields(const QString& prefix, bool apply) {
+  for (const Row& row : rows_)
+    if (QString::fromStdString(row.field->name).startsWith(prefix))
+      for (QWidget* each : {static_cast<QWidget*>(row.label), row.editor}) each->setVisible(apply);
 }
 
 QMap<QString, QString> OptionForm::values() const {

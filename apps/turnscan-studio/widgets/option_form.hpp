@@ -1,6 +1,7 @@
 #pragma once
 // Input fields for an options struct of the library, generated from its OptionTable, which defines
-// names, ranges, units, help and error messages.
+// names, ranges, units, help and error messages. The label of a value that differs from its default
+// is a link that resets it.
 
 #include <QMap>
 #include <QString>
@@ -30,6 +31,8 @@ class OptionForm : public QWidget {
   /// Shows the current values of the struct.
   void refresh();
   void reset_to_defaults();
+  /// Shows only those fields, of the ones whose name begins so, that apply.
+  void show_fields(const QString& prefix, bool apply);
   /// Shows the value that an automatic option had in the last run; `why` becomes the tool tip.
   void show_used(const QString& field, const QString& value, const QString& why);
 
@@ -51,9 +54,9 @@ class OptionForm : public QWidget {
   struct Row {
     const OptionField* field = nullptr;
     QWidget* editor = nullptr;
-    QSlider* slider = nullptr;  ///< may be none
-    QLabel* error = nullptr;
-    std::string initial;  ///< the default
+    QSlider* slider = nullptr;                  ///< may be none
+    QLabel *error = nullptr, *label = nullptr;  ///< a flag has no label
+    std::string initial;                        ///< the default
     QString problem;
   };
 
@@ -62,6 +65,7 @@ class OptionForm : public QWidget {
   QSlider* make_slider(std::size_t row);
   void take(std::size_t row, const QString& text);
   void show_problem(Row& row);
+  void mark(const Row& row);
   void show_value(const Row& row);
   void show_on_slider(const Row& row);
 

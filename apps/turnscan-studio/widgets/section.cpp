@@ -49,11 +49,21 @@ void Section::set_open(bool open) { header_->setChecked(open); }
 
 bool Section::is_open() const { return header_->isChecked(); }
 
-MessageLabel::MessageLabel(QWidget* parent) : QLabel(parent) {
+MessageLabel::MessageLabel(QWidget* parent) : QLabel(parent), dismiss_(new QToolButton(this)) {
   setObjectName("error");
+  setContentsMargins(0, 0, 16, 0);
+  dismiss_->setObjectName("dismiss");
+  dismiss_->setText("×");
+  dismiss_->setAccessibleName(QCoreApplication::translate("MessageLabel", "Dismiss the message"));
+  connect(dismiss_, &QToolButton::clicked, this, [this] { show_text({}); });
   setWordWrap(true);
   setTextInteractionFlags(Qt::TextSelectableByMouse);
   setVisible(false);
+}
+
+void MessageLabel::resizeEvent(QResizeEvent* event) {
+  QLabel::resizeEvent(event);
+  dismiss_->setGeometry(width() - 24, 4, 20, 20);
 }
 
 void MessageLabel::show_text(const QString& text) {

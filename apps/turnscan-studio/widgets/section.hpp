@@ -28,13 +28,19 @@ class Section : public QWidget {
   QVBoxLayout* body_;
 };
 
-/// An error message, also added to the message log; hidden without text.
+/// An error message, also added to the message log; hidden without text, and by its cross.
 class MessageLabel : public QLabel {
  public:
   explicit MessageLabel(QWidget* parent = nullptr);
   void show_text(const QString& text);
   /// Appends a line to the shown text.
   void add_text(const QString& text);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  QToolButton* dismiss_;
 };
 
 /// A paragraph of several lines, which a panel shows completely.

@@ -31,8 +31,8 @@ QLabel#error { padding: 7px 9px; border: 1px solid %error; border-radius: 5px; }
 QLineEdit, QPlainTextEdit, QTableWidget, QListWidget, QTreeWidget {
   background: %field; border: 1px solid %line; border-radius: 5px; }
 QLineEdit { padding: 3px 7px; min-height: 20px; }
-QLineEdit:focus, QTableWidget:focus, QTreeWidget:focus {
-  border: 1px solid %accent; }
+QLineEdit:focus, QTableWidget:focus, QTreeWidget:focus, QListWidget:focus,
+QPlainTextEdit:focus { border: 1px solid %accent; }
 QLineEdit[invalid="true"] { border: 1px solid %error; }
 QPushButton, QToolButton#tool { background: %field; color: %text; border: 1px solid %line;
   border-radius: 5px; padding: 6px 12px; min-height: 18px; }
@@ -74,6 +74,22 @@ QPushButton#secondary { padding: 6px 14px; }
 QPushButton#record { background: %error; color: %accent_text; border-color: %error; font-weight: 600;
   padding: 7px 14px; }
 QPushButton#record:disabled { background: %line; border-color: %line; color: %quiet; }
+QPushButton, QToolButton, QCheckBox, QSlider { outline: none; }
+QPushButton:focus, QToolButton#tool:focus { border: 2px solid %accent; padding: 5px 11px; }
+QToolButton#tool:focus { padding: 5px 8px; }
+QPushButton#primary:focus, QPushButton#record:focus { border: 2px solid %text; padding: 5px 13px; }
+QPushButton#record:focus { padding: 6px 13px; }
+QToolButton#mode:focus { border: 2px solid %text; padding: 5px 14px; }
+QToolButton#section:focus, QCheckBox:focus { color: %accent; text-decoration: underline; }
+QCheckBox::indicator:focus { border: 2px solid %text; width: 12px; height: 12px; }
+QComboBox:focus { border: 2px solid %accent; padding: 2px 6px; }
+QLabel#platter_chip { padding: 5px 9px; border-radius: 5px; border: 1px solid %line; }
+QLabel#platter_chip[grade="good"], QLabel#platter_chip[grade="fair"],
+QLabel#platter_chip[grade="bad"] { color: #101010; border: none; }
+QLabel#platter_chip[grade="good"] { background: #009e73; }
+QLabel#platter_chip[grade="fair"] { background: #e69f00; }
+QLabel#platter_chip[grade="bad"] { background: #d55e00; }
+QToolButton#dismiss { border: none; color: %error; padding: 0; }
 QHeaderView::section { background: %panel; color: %quiet; border: none;
   border-bottom: 1px solid %line; padding: 4px 6px; }
 QTableWidget, QTreeWidget { gridline-color: %line; selection-background-color: %accent;
@@ -95,6 +111,9 @@ QMenuBar::item:selected { background: %window; }
 QSlider::groove:horizontal { height: 4px; background: %line; border-radius: 2px; }
 QSlider::handle:horizontal { width: 14px; height: 14px; margin: -5px 0; border-radius: 7px;
   background: %accent; }
+QSlider[automatic="true"]::handle:horizontal { background: %line; }
+QSlider::handle:horizontal:focus { border: 2px solid %text; width: 12px; height: 12px;
+  margin: -6px 0; border-radius: 8px; }
 QScrollBar:vertical { background: transparent; width: 10px; margin: 0; }
 QScrollBar::handle:vertical { background: %line; border-radius: 5px; min-height: 24px; }
 QScrollBar::add-line, QScrollBar::sub-line { height: 0; width: 0; }

@@ -26,6 +26,7 @@ JobBar::JobBar(JobRunner& jobs, QWidget* parent)
       text_(new QLabel(this)),
       bar_(new QProgressBar(this)),
       left_(new QLabel(this)),
+      waiting_(new QLabel(this)),
       cancel_(new QToolButton(this)) {
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(0, 2, 6, 2);
@@ -39,7 +40,8 @@ JobBar::JobBar(JobRunner& jobs, QWidget* parent)
   cancel_->setObjectName("tool");
   cancel_->setToolTip(tr("Stop the running job (Esc)"));
   left_->setMinimumWidth(90);
-  for (QWidget* part : std::initializer_list<QWidget*>{text_, bar_, left_, cancel_})
+  waiting_->setObjectName("jobs_waiting");
+  for (QWidget* part : std::initializer_list<QWidget*>{text_, bar_, left_, waiting_, cancel_})
     layout->addWidget(part);
   setVisible(false);
   each_second_.setInterval(1000);
@@ -48,15 +50,23 @@ JobBar::JobBar(JobRunner& jobs, QWidget* parent)
   connect(&jobs_, &JobRunner::started, this, [this](const QString& title) {
     title_ = title;
     since_.start();
+    show_waiting();
     each_second_.start();
     show_progress({}, 0.0, -1.0);
     setVisible(true);
   });
   connect(&jobs_, &JobRunner::progress, this, &JobBar::show_progress);
+  connect(&jobs_, &JobRunner::queued, this, &JobBar::show_waiting);
   connect(&jobs_, &JobRunner::finished, this, [this] {
     setVisible(jobs_.busy());
     if (!jobs_.busy()) each_second_.stop();
   });
+}
+
+void JobBar::show_waiting() {
+  const QStringList waiting = jobs_.waiting();
+  waiting_->setText(waiting.isEmpty() ? QString() : tr("%1 more").arg(waiting.size()));
+  waiting_->setToolTip(tr("Next:") + "\n" + waiting.join("\n"));
 }
 
 void JobBar::show_progress(const QString& phase, double fraction, double seconds_left) {

@@ -13,7 +13,7 @@ namespace turnscan::studio {
 class JobRunner;
 
 /// Shows the running job in the status line: phase, progress, remaining time (or elapsed time if
-/// that is not known), Cancel.
+/// that is not known), how many wait, Cancel.
 class JobBar : public QWidget {
   Q_OBJECT
  public:
@@ -22,11 +22,12 @@ class JobBar : public QWidget {
  private:
   void show_progress(const QString& phase, double fraction, double seconds_left);
   void show_elapsed();
+  void show_waiting();
 
   JobRunner& jobs_;
   QLabel* text_;
   QProgressBar* bar_;
-  QLabel* left_;
+  QLabel *left_, *waiting_;
   QToolButton* cancel_;
   QString title_;
   QElapsedTimer since_;

@@ -12,6 +12,7 @@
 #include "app/jobs.hpp"
 #include "app/language.hpp"
 #include "app/mode.hpp"
+#include "app/paths.hpp"
 #include "explorer/explorer.hpp"
 #include "explorer/output/queue_dialog.hpp"
 #include "view/scene_view.hpp"
@@ -55,9 +56,17 @@ void open_recording(MainWindow& window) {
   if (!folder.isEmpty()) window.open(folder);
 }
 
+void save_all(MainWindow& window) {
+  if (window.explorer().store().unsaved().isEmpty())
+    return window.say(MainWindow::tr("All models are in files"));
+  const QString folder =
+      QFileDialog::getExistingDirectory(&window, MainWindow::tr("Folder for all models"));
+  if (!folder.isEmpty()) window.explorer().save_all(folder);
+}
+
 void save_screenshot(MainWindow& window) {
-  const QString path = QFileDialog::getSaveFileName(&window, MainWindow::tr("Save screenshot"),
-                                                    "view.png", MainWindow::tr("Pictures (*.png)"));
+  const QString path = ask_save_path(&window, MainWindow::tr("Save screenshot"), "view.png",
+                                     MainWindow::tr("Pictures (*.png)"));
   if (!path.isEmpty()) window.screenshot(path);
 }
 
@@ -88,6 +97,7 @@ QMenu* add_file_menu(MainWindow& window) {
   add_entries(
       window, *menu,
       {{MainWindow::tr("&Save…"), [](MainWindow& w) { w.mode().save(); }, QKeySequence::Save},
+       {MainWindow::tr("Save &all…"), save_all, QKeySequence("Ctrl+Shift+S")},
        {MainWindow::tr("&Export…"),
         [](MainWindow& w) {
           w.show_mode("explorer");

@@ -139,6 +139,12 @@ void MainWindow::add_mode(const QString& name, const QString& title, const QStri
     show_mode("scanner");
     scanner_->scan_another_side(side);
   });
+  connect(mode, &Mode::surface_left, this,
+          [this](const DrawablePtr& surface) { explorer_->show_until_mesh(surface); });
+  connect(mode, &Mode::scan_wanted, this, [this] {
+    show_mode("scanner");
+    scanner_->play_when_listed();
+  });
   connect(mode, &Mode::recording_made, this, [this](const QString& folder, bool reconstruct) {
     show_mode("explorer");
     explorer_->take_recording(folder, reconstruct);
@@ -244,8 +250,11 @@ void MainWindow::dropEvent(QDropEvent* event) {
 QStringList MainWindow::at_stake() const {
   QStringList out;
   const QStringList models = explorer_->store().unsaved();
-  if (!models.isEmpty())
-    out << tr("%n model(s) in no file: %1", nullptr, int(models.size())).arg(models.join(", "));
+  // They are offered by the next start.
+  if (!explorer_->session().set_stays(!models.isEmpty()))
+    out << tr("%n model(s) cannot be kept for the next start and are in no file: %1", nullptr,
+              int(models.size()))
+               .arg(models.join(", "));
   if (scanner_->is_recording()) out << tr("A recording runs; it ends, and what it has is kept");
   return out;
 }
@@ -255,10 +264,9 @@ void MainWindow::offer_lost_session() {
   if (!lost) return;
   QStringList names;
   for (const KeptModel& model : lost->models()) names << model.name;
-  QMessageBox question(
-      QMessageBox::Question, tr("Restore the last session?"),
-      tr("The last session did not end well. It had these models:\n%1").arg(names.join(", ")),
-      QMessageBox::NoButton, this);
+  QMessageBox question(QMessageBox::Question, tr("Restore the last session?"),
+                       tr("The last session had these models:\n%1").arg(names.join(", ")),
+                       QMessageBox::NoButton, this);
   const auto* restore = question.addButton(tr("Restore"), QMessageBox::AcceptRole);
   const auto* discard = question.addButton(tr("Discard"), QMessageBox::DestructiveRole);
   question.addButton(tr("Ask again later"), QMessageBox::RejectRole);

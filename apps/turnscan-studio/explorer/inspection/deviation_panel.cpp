@@ -2,12 +2,10 @@
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QSettings>
 #include <QSignalBlocker>
 #include <algorithm>
 #include <cmath>
@@ -340,14 +338,9 @@ void DeviationPanel::align() {
 }
 
 void DeviationPanel::export_dialog() {
-  QSettings settings;
-  const QString folder = settings.value("files/folder").toString();
-  const QString path = QFileDialog::getSaveFileName(
-      this, tr("Export deviations"),
-      QString("%1/%2-deviations.csv").arg(folder.isEmpty() ? "." : folder, shown_.name),
-      tr("Table (*.csv)"));
+  const QString path = ask_save_path(this, tr("Export deviations"), shown_.name + "-deviations.csv",
+                                     tr("Table (*.csv)"));
   if (path.isEmpty()) return;
-  settings.setValue("files/folder", QFileInfo(path).absolutePath());
   export_csv(path);
 }
 

@@ -1,14 +1,12 @@
 #include "explorer/inspection/measure_panel.hpp"
 
 #include <QDoubleSpinBox>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
-#include <QSettings>
 #include <QTreeWidget>
 #include <algorithm>
 #include <turnscan/evaluation/inspection/deviations.hpp>
@@ -277,19 +275,22 @@ void MeasurePanel::remove_chosen() {
 
 void MeasurePanel::paint(QPainter& painter) const {
   const int chosen = list_->indexOfTopLevelItem(list_->currentItem());
-  for (std::size_t i = 0; i < kept_.size(); ++i)
-    paint_measurement(painter, parts_.view, kept_[i], text_with_number(i + 1, kept_[i]),
-                      int(i) == chosen);
+  const auto& models = parts_.store.models();
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    // One that is gone or renamed leaves them where they were made.
+    const auto of = std::find_if(models.begin(), models.end(), [&](const Model& model) {
+      return model.name.toStdString() == kept_[i].of;
+    });
+    if (of == models.end() || of->visible)
+      paint_measurement(painter, parts_.view, kept_[i], text_with_number(i + 1, kept_[i]),
+                        int(i) == chosen);
+  }
 }
 
 void MeasurePanel::export_dialog() {
-  QSettings settings;
-  const QString folder = settings.value("files/folder").toString();
-  const QString path = QFileDialog::getSaveFileName(
-      this, tr("Export measurements"),
-      QString("%1/measurements.csv").arg(folder.isEmpty() ? "." : folder), tr("Table (*.csv)"));
+  const QString path =
+      ask_save_path(this, tr("Export measurements"), "measurements.csv", tr("Table (*.csv)"));
   if (path.isEmpty()) return;
-  settings.setValue("files/folder", QFileInfo(path).absolutePath());
   export_csv(path);
 }
 

@@ -1,10 +1,8 @@
 #include "explorer/inspection/section_panel.hpp"
 
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QPushButton>
-#include <QSettings>
 #include <turnscan/io/file/atomic_file.hpp>
 
 #include "app/jobs.hpp"
@@ -185,16 +183,11 @@ void SectionPanel::clear_drawn() {
 }
 
 void SectionPanel::export_dialog(const QString& ending, const QString& filter) {
-  QSettings settings;
-  const QString folder = settings.value("files/folder").toString();
   const Model* model = target();
-  const QString path = QFileDialog::getSaveFileName(
-      this, tr("Export the section"),
-      QString("%1/%2-section.%3")
-          .arg(folder.isEmpty() ? "." : folder, model ? model->name : QString(), ending),
-      filter);
+  const QString path =
+      ask_save_path(this, tr("Export the section"),
+                    QString("%1-section.%2").arg(model ? model->name : QString(), ending), filter);
   if (path.isEmpty()) return;
-  settings.setValue("files/folder", QFileInfo(path).absolutePath());
   export_drawing(path);
 }
 

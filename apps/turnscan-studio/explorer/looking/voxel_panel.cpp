@@ -37,8 +37,11 @@ std::vector<float> ascending_counts(const ModelData& data) {
   return out;
 }
 
+/// Sub-voxels count the lines of sight that cross them.
+bool made_of_lines(const ModelData& data) { return data.source.startsWith("sub-voxels "); }
+
 bool made_by_voxels(const ModelData& data) {
-  return data.source.startsWith("voxels ") || data.source.startsWith("sub-voxels ");
+  return data.source.startsWith("voxels ") || made_of_lines(data);
 }
 
 }  // namespace
@@ -137,7 +140,8 @@ void VoxelPanel::set_least(int least) {
 void VoxelPanel::show_kept() {
   const int least = least_->value();
   const auto from = std::lower_bound(counts_.begin(), counts_.end(), float(least));
-  kept_->setText(tr("%1 of %2 cells have at least %3 points")
+  kept_->setText((made_of_lines(*data()) ? tr("%1 of %2 cells have at least %3 lines")
+                                         : tr("%1 of %2 cells have at least %3 points"))
                      .arg(grouped(std::size_t(counts_.end() - from)), grouped(counts_.size()),
                           grouped(std::size_t(least))));
   const QSignalBlocker quiet(slider_);
@@ -179,6 +183,11 @@ void VoxelPanel::forget_removed() {
   });
 }
 
+int VoxelPanel::least_of(const Model& model) const {
+  const auto at = cubes_.find(model.data);
+  return at != cubes_.end() && at->second.on ? at->second.least : 0;
+}
+
 DrawablePtr VoxelPanel::drawable_of(const Model& model) const {
   const auto at = cubes_.find(model.data);
   return at != cubes_.end() && at->second.on ? at->second.drawable : nullptr;
@@ -190,7 +199,7 @@ std::optional<Legend> VoxelPanel::legend() const {
   const double brightest = cubes_.at(model->data).cubes->brightest();
   if (!(brightest > 0.0)) return std::nullopt;
   Legend legend;
-  legend.title = tr("Points in a cell");
+  legend.title = made_of_lines(*model->data) ? tr("Lines through a cell") : tr("Points in a cell");
   legend.continuous = true;
   constexpr int kLabels = 4;
   for (int i = 0; i <= kLabels; ++i)

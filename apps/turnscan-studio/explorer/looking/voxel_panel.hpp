@@ -35,6 +35,8 @@ class VoxelPanel : public QWidget {
   bool applies() const;
   /// The cubes of a model; nullptr: it is not shown so.
   DrawablePtr drawable_of(const Model& model) const;
+  /// The threshold of its cubes; 0: it has none.
+  int least_of(const Model& model) const;
   /// Of the cubes of the model that is shown; nullopt: there are none.
   std::optional<Legend> legend() const;
 

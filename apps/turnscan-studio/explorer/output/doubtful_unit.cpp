@@ -50,7 +50,7 @@ QString size_of_model(double metres) {
                       : QObject::tr("%1 m").arg(metres, 0, 'g', 3);
 }
 
-double ask_unit(const DoubtfulUnit& doubt, QWidget* parent) {
+std::optional<double> ask_unit(const DoubtfulUnit& doubt, QWidget* parent) {
   QMessageBox question(
       QMessageBox::Question, QObject::tr("Which unit?"),
       QObject::tr("%1 does not say its unit. Read in %2 it is %3 large. In which unit is it?")
@@ -65,13 +65,13 @@ double ask_unit(const DoubtfulUnit& doubt, QWidget* parent) {
                                size_of_model(doubt.size_m / doubt.metres_per_unit * unit)),
         QMessageBox::AcceptRole);
     if (unit == doubt.likely) question.setDefaultButton(made);
-    if (unit == doubt.metres_per_unit) question.setEscapeButton(made);
     answers.emplace_back(made, unit);
   }
+  question.addButton(QMessageBox::Cancel);
   question.exec();
   for (const auto& [made, unit] : answers)
     if (question.clickedButton() == made) return unit;
-  return doubt.metres_per_unit;
+  return std::nullopt;
 }
 
 }  // namespace turnscan::studio

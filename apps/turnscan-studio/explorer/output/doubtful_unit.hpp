@@ -28,8 +28,9 @@ std::optional<DoubtfulUnit> doubtful_unit(const QString& path, const NamedModels
 /// "13.9 m", "139 mm"
 QString size_of_model(double metres);
 
-/// Returns metres per unit of the file. A dialog, unless a test answers.
-using UnitQuestion = std::function<double(const DoubtfulUnit&)>;
-double ask_unit(const DoubtfulUnit& doubt, QWidget* parent);
+/// Returns metres per unit of the file; nullopt: it is not to be opened. A dialog, unless a test
+/// answers.
+using UnitQuestion = std::function<std::optional<double>(const DoubtfulUnit&)>;
+std::optional<double> ask_unit(const DoubtfulUnit& doubt, QWidget* parent);
 
 }  // namespace turnscan::studio

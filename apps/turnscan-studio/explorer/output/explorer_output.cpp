@@ -1,15 +1,14 @@
 // Output of the Explorer: exports, and the queue of recordings.
 
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
-#include <QSettings>
 #include <turnscan/core/mesh_texture.hpp>
 
 #include "app/jobs.hpp"
 #include "app/paths.hpp"
 #include "explorer/explorer.hpp"
 #include "explorer/looking/movie.hpp"
+#include "explorer/looking/voxel_panel.hpp"
 #include "explorer/model_list.hpp"
 #include "explorer/output/export_dialog.hpp"
 #include "explorer/output/stage_sheet.hpp"
@@ -67,15 +66,11 @@ void ExplorerMode::export_dialog() {
   stages_->show_error({});
   ExportDialog dialog(*model->data, model->name, this);
   if (dialog.exec() != QDialog::Accepted) return;
-  QSettings settings;
-  const QString folder = settings.value("files/folder").toString(), ending = dialog.ending();
-  QString path = QFileDialog::getSaveFileName(
-      this, tr("Export %1").arg(model->name),
-      QString("%1/%2%3").arg(folder.isEmpty() ? "." : folder, model->name, ending),
-      QString("*%1").arg(ending));
+  const QString ending = dialog.ending();
+  QString path = ask_save_path(this, tr("Export %1").arg(model->name), model->name + ending,
+                               QString("*%1").arg(ending));
   if (path.isEmpty()) return;
   if (!path.endsWith(ending, Qt::CaseInsensitive)) path += ending;
-  settings.setValue("files/folder", QFileInfo(path).absolutePath());
   export_as(model->id, path, dialog.options());
 }
 
@@ -93,28 +88,31 @@ void ExplorerMode::export_as(int id, const QString& path, const ExportOptions& o
 }
 
 void ExplorerMode::movie_dialog() {
-  QSettings settings;
-  const QString folder = settings.value("files/folder").toString();
   const QString pictures = tr("Pictures, NAME-0001.png and so on (*.png)");
   const bool film = can_make_films();
-  const QString path = QFileDialog::getSaveFileName(
-      this, tr("Turntable movie"),
-      QString("%1/turntable.%2").arg(folder.isEmpty() ? "." : folder, film ? "mp4" : "png"),
-      film ? tr("Film (*.mp4)") + ";;" + pictures : pictures);
+  const QString path =
+      ask_save_path(this, tr("Turntable movie"), film ? "turntable.mp4" : "turntable.png",
+                    film ? tr("Film (*.mp4)") + ";;" + pictures : pictures);
   if (path.isEmpty()) return;
-  settings.setValue("files/folder", QFileInfo(path).absolutePath());
   constexpr int kFrames = 120;  // five seconds
   make_movie(path, kFrames);
 }
 
 void ExplorerMode::show_stages() {
   stages_->show_error({});
-  std::vector<Model> shown;
-  for (const Model& model : store_->models())
-    if (model.visible) shown.push_back(model);
+  // All that was made from one recording, of which the list shows one at a time; else what it
+  // shows.
+  const auto input = stage_input();
+  std::vector<ShownStage> stages, visible;
+  for (const Model& model : store_->models()) {
+    const ShownStage shown{model, voxels_->least_of(model)};
+    if (input && model.data->made_from == input->data) stages.push_back(shown);
+    if (model.visible) visible.push_back(shown);
+  }
   jobs().start(
       tr("Stages"), this,
-      [this, shown](const RunContext& context) -> Result<Finish> {
+      [this,
+       shown = stages.empty() ? visible : stages](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(const QImage sheet, stage_sheet(shown, context));
         return Finish([this, sheet] {
           auto* dialog = new SheetDialog(sheet, this);

@@ -2,7 +2,6 @@
 
 #include <QAbstractButton>
 #include <QDialogButtonBox>
-#include <QFileDialog>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
@@ -10,19 +9,22 @@
 #include <turnscan/simulator/rendering/picture.hpp>
 #include <turnscan/workflow/cloud_cubes.hpp>
 
+#include "app/paths.hpp"
 #include "explorer/editing/edits.hpp"
 
 namespace turnscan::studio {
 
 namespace {
 
-constexpr int kWidth = 420, kHeight = 520, kCaption = 56;  // pixels of a model
-constexpr std::size_t kMostCubes = 200000;                 // of a cloud
+constexpr int kWidth = 420, kHeight = 520, kCaption = 72;  // pixels of a model
+constexpr std::size_t kMostPoints = 200000;
 
-Result<TriangleMesh> shown_of(const ModelData& data, const RunContext& context) {
+Result<TriangleMesh> shown_of(const ShownStage& stage, const RunContext& context) {
+  const ModelData& data = *stage.model.data;
   if (data.kind == ModelKind::kMesh) return data.mesh;
-  const std::size_t step = data.cloud.size() / kMostCubes + 1;
-  if (step == 1) return cubes_of(data.cloud, 0.0, context);
+  // Cells have counts; of other points a part shows the same.
+  const std::size_t step = data.cloud.weights.empty() ? data.cloud.size() / kMostPoints + 1 : 1;
+  if (step == 1) return cubes_of(data.cloud, stage.least, context);
   return cubes_of(points_where(data.cloud, [&](std::size_t i) { return i % step == 0; }), 0.0,
                   context);
 }
@@ -35,6 +37,9 @@ QImage captioned(const ColorImage& picture, const Model& model) {
                     QImage(&picture.pixels.front().r, picture.width, picture.height,
                            3 * picture.width, QImage::Format_RGB888));
   painter.setPen(Qt::black);
+  QFont font = painter.font();
+  font.setPixelSize(20);  // legible in a sheet that is scaled down to the screen
+  painter.setFont(font);
   const QRect below(8, picture.height, picture.width - 16, kCaption);
   const QString name = painter.fontMetrics().elidedText(model.name, Qt::ElideMiddle, below.width());
   painter.drawText(below, Qt::AlignHCenter | Qt::AlignTop, name + "\n" + count_text(*model.data));
@@ -43,11 +48,12 @@ QImage captioned(const ColorImage& picture, const Model& model) {
 
 }  // namespace
 
-Result<QImage> stage_sheet(const std::vector<Model>& models, const RunContext& context) {
+Result<QImage> stage_sheet(const std::vector<ShownStage>& stages, const RunContext& context) {
   std::vector<QImage> pictures;
-  for (const Model& model : models) {
+  for (const ShownStage& stage : stages) {
+    const Model& model = stage.model;
     if (model.data->kind == ModelKind::kRecording) continue;
-    TURNSCAN_ASSIGN(const TriangleMesh mesh, shown_of(*model.data, context));
+    TURNSCAN_ASSIGN(const TriangleMesh mesh, shown_of(stage, context));
     PictureOptions options;
     options.width = kWidth;
     options.height = kHeight;
@@ -82,7 +88,7 @@ SheetDialog::SheetDialog(const QImage& sheet, QWidget* parent) : QDialog(parent)
   layout->addWidget(buttons);
   connect(buttons, &QDialogButtonBox::accepted, this, [this] {
     const QString path =
-        QFileDialog::getSaveFileName(this, tr("Save the stages"), "stages.png", tr("PNG (*.png)"));
+        ask_save_path(this, tr("Save the stages"), "stages.png", tr("PNG (*.png)"));
     if (!path.isEmpty()) save_as(path);
   });
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::close);
