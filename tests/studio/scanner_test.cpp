@@ -391,7 +391,7 @@ TEST_F(Scanner, ThePlatterIsFoundWhileItPlaysAndReturnPlaysWhatIsTyped) {
   };
   auto* chip = qobject_cast<QLabel*>(named(mode(), "platter_chip"));
   play("virtual:doll?sensor=kinect-v2&realtime=1&frames=6000");
-  ASSERT_TRUE(wait_for([&] { return chip->isVisible(); }));
+  ASSERT_TRUE(wait_for([&] { return chip->isVisible(); }, 180.0));
   EXPECT_EQ(chip->property("grade"), "good") << chip->text().toStdString();
   EXPECT_TRUE(QRegularExpression(R"(radius 1(49|50)\.\d mm, known to \d\.\d mm)")
                   .match(chip->text())
