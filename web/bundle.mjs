@@ -1,7 +1,7 @@
 // node bundle.mjs OUT [SCRIPT]: writes the viewer, or another script of this folder, and the licences of what is in it
-// as one classic script.
+// as one classic script. An OUT that ends in .html is the page SCRIPT.html with its script and SCRIPT.css in it.
 
-import {readFileSync} from 'node:fs';
+import {readFileSync, writeFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import {build} from 'esbuild';
@@ -13,9 +13,12 @@ const banner = `/*! three.js ${three.version}\n${licence}\n*/
 /*! meshopt_decoder, part of meshoptimizer. Copyright (C) 2016-2026, by Arseny Kapoulkine.
 MIT licence, whose text is the same as that of three.js above. */`;
 
-await build({
-  entryPoints: [join(here, process.argv[3] ?? 'viewer.js')],
-  outfile: process.argv[2],
+const [out, name = 'viewer.js'] = process.argv.slice(2);
+const is_page = out.endsWith('.html');
+const bundled = async (file) => (await build({
+  entryPoints: [join(here, file)],
+  outfile: out,
+  write: !is_page,
   bundle: true,
   minify: true,
   format: 'iife',
@@ -23,4 +26,12 @@ await build({
   legalComments: 'none',
   banner: {js: banner},
   logLevel: 'warning'
-});
+})).outputFiles?.[0].text.replaceAll('</script', '<\\/script');
+
+if (is_page) {
+  const parts = {style: await bundled(`${name}.css`), script: await bundled(`${name}.js`)};
+  const page = readFileSync(join(here, `${name}.html`), 'utf8');
+  writeFileSync(out, page.replace(/<(style|script)><\/\1>/g, (_, tag) => `<${tag}>${parts[tag]}</${tag}>`));
+} else {
+  await bundled(name);
+}

@@ -16,6 +16,10 @@ int run(int argc, char** argv) {
               "docs/reference/capture.md", make_capture_command());
   program.add("scan", "Make a mesh of what stands on the turning table, in one go",
               "docs/tutorials/kinect.md", make_scan_command());
+#ifdef TURNSCAN_WITH_SERVE
+  program.add("serve", "Serve a page for a phone beside the turntable, and its interface",
+              "docs/how-to/serve.md", make_serve_command());
+#endif
   program.add("turntable", "Turn the table by its motor", "docs/how-to/motor.md",
               make_turntable_command());
   program.add("calibrate", "Find where the turntable stands and how it turns",

@@ -49,7 +49,8 @@ HOSTS = {"www.apache.org", "github.com", "www.collada.org", "graphics.stanford.e
          "paulbourke.net", "pointclouds.org", "docs.opencv.org", "cvg.cit.tum.de", "learn.microsoft.com",
          "registry.khronos.org", "json.nlohmann.me", "toml.io", "semver.org", "keepachangelog.com",
          "wiki.ros.org", "docs.ros.org", "www.ros.org", "mcap.dev", "docs.artec-group.com", "www.shining3d.com",
-         "docs.shining3d.com", "www.cloudcompare.org"}
+         "docs.shining3d.com", "www.cloudcompare.org",
+         "127.0.0.1", "rig"}  # of turnscan serve: this machine, and any beside a turntable
 URL = re.compile(r"https?://([A-Za-z0-9.-]+)")
 # Folders of one person's machine. The leading character keeps paths inside URLs out.
 MACHINE_PATH = re.compile(r"(?:^|[\s\"'`(=:,])((?:/(?:work|home|root|mnt|farm|tmp|Users)/\w"

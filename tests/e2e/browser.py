@@ -95,13 +95,16 @@ class Browser:
             self.events.append(answer)
 
     def open(self, path, width=1440, height=900):
+        return self.open_address(path.resolve().as_uri(), width, height)
+
+    def open_address(self, address, width=1440, height=900):
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         page = Page(self, session)
         for domain in ("Page", "Runtime", "Log", "Network"):
             page.call(f"{domain}.enable")
         page.resize(width, height)
-        page.call("Page.navigate", url=path.resolve().as_uri())
+        page.call("Page.navigate", url=address)
         page.wait("document.readyState === 'complete'")
         return page
 

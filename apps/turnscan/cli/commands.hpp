@@ -19,6 +19,7 @@ std::unique_ptr<Command> make_demo_command();
 std::unique_ptr<Command> make_devices_command();
 std::unique_ptr<Command> make_capture_command();
 std::unique_ptr<Command> make_scan_command();
+std::unique_ptr<Command> make_serve_command();
 std::unique_ptr<Command> make_turntable_command();
 std::unique_ptr<Command> make_batch_command();
 std::unique_ptr<Command> make_plan_command();

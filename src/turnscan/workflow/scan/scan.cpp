@@ -220,13 +220,13 @@ class ScanRun {
       if (hooks_.progress) hooks_.progress(progress);
       if (ahead_ && first) ahead_->progress(progress.fraction);
     };
-    if (first && (live_ || ahead_)) {
-      hooks.frame = [this](const Frame& frame) -> Result<> {
-        if (live_) live_->add(frame);
-        if (ahead_ && !live_) ahead_->frame_came();
-        return {};
-      };
-    }
+    hooks.frame = [this, first](const Frame& frame) -> Result<> {
+      if (hooks_.frame) hooks_.frame(frame);
+      if (!first) return {};
+      if (live_) live_->add(frame);
+      if (ahead_ && !live_) ahead_->frame_came();
+      return {};
+    };
     context_.begin_phase(first ? "record" : "record another side", 1000);
     auto result =
         capture(source, out_.recording, setup().header, setup().settings, options, hooks, context_);

@@ -1,0 +1,132 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <thread>
+
+#include "cli/command_line.hpp"
+#include "cli/commands.hpp"
+#include "commands/capture_arguments.hpp"
+#include "commands/stage_arguments.hpp"
+#include "serve/http_server.hpp"
+#include "serve/routes.hpp"
+
+namespace turnscan::cli {
+
+namespace {
+
+constexpr const char* kLoopback = "127.0.0.1";
+constexpr std::chrono::milliseconds kTick{50};
+// Of a job that was cancelled; whoever ends the server waits no longer than half a second.
+constexpr std::chrono::milliseconds kLastMoment{300};
+
+OptionTable describe(int& port) {
+  OptionTable table;
+  table.number("port", port, {0, 65535}, "Port to listen at; 0: any that is free");
+  return table;
+}
+
+class ServeCommand : public Command {
+ public:
+  void declare(CommandLine& line) override {
+    line.optional_positional("FOLDER", folder_,
+                             "Folder of the scans, created if there is none; default: "
+                             "./turnscan-scans");
+    line.option("--listen", "ADDRESS", listen_,
+                "Address to listen at, e.g. 0.0.0.0 for the whole network. Others than this "
+                "machine's own (127.0.0.1, the default) need --token");
+    line.option("--token", "FILE|auto", token_,
+                "What a request has to bring: the first line of a file that nobody else may read, "
+                "or auto: a new one, which is printed with the address");
+    line.flag("--openapi", print_openapi_, "Print the description of the interface, and end");
+    line.repeatable("--device", "URI", request_.setup.devices,
+                    "Sensor to offer besides those that are found, e.g. "
+                    "'virtual:doll?sensor=kinect-v2'; may be given several times");
+    line.flag("--no-wait", no_wait_, "Do not wait until something stands on the platter");
+    line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
+    declare_capture(line, request_.setup);
+    line.group("server", "Server", describe(port_));
+    line.group("limits", "End of the recording", turnscan::describe(request_.setup.options.limits));
+    line.group("mesh-file", "Mesh file", turnscan::describe(request_.mesh_options));
+    declare_stages(line, request_.reconstruct);
+    line.common({"port", "listen", "token", "device", "motor", "turntable", "speed", "turns",
+                 "voxel-size", "texture", "openapi"});
+  }
+
+  FileRoles files() const override {
+    return {with_replayed(request_.setup.devices, request_.setup.turntable_file), {}};
+  }
+
+  Result<> run(Session& session) override {
+    if (print_openapi_) {
+      session.print("{}\n", serve::openapi().dump(2));
+      return {};
+    }
+    TURNSCAN_ASSIGN(serve::Access access, find_access());
+    TURNSCAN_ASSIGN(serve::ScanStore store, serve::ScanStore::open(folder_));
+    request_.wait = !no_wait_;
+    const std::string folder = store.root().string();
+    serve::Rig rig(std::move(store), request_, access);
+    serve::HttpServer server(
+        [&](const auto& request, auto& response) { return rig.admit(request, response); },
+        [&](const auto& request, auto& response) { rig.answer(request, response); });
+    TURNSCAN_ASSIGN(const int port, server.bind(listen_, port_));
+    std::thread serving([&] { server.run(); });
+    say_where(folder, access, port);
+    while (!session.context().cancelled()) std::this_thread::sleep_for(kTick);
+    rig.stop();
+    server.stop();
+    serving.join();
+    // A recording can be ended at any moment; what is computed from it can be computed again.
+    if (!rig.jobs().end(kLastMoment)) _exit(0);
+    return {};
+  }
+
+ private:
+  Result<serve::Access> find_access() const {
+    serve::Access access;
+    access.loopback = serve::Access::is_loopback(listen_);
+    if (token_ == "auto") {
+      access.token = serve::random_key();
+    } else if (!token_.empty()) {
+      TURNSCAN_ASSIGN(access.token, serve::Access::read_token(token_));
+    }
+    if (!access.loopback && access.token.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "--listen {}: everybody in that network could turn the table; give --token auto, "
+                  "or --token FILE",
+                  listen_);
+    return access;
+  }
+
+  /// At once, for people and for scripts that wait for it.
+  void say_where(const std::string& folder, const serve::Access& access, int port) const {
+    const bool everywhere = listen_ == "0.0.0.0" || listen_ == "::";
+    const std::string host = everywhere                               ? own_name()
+                             : listen_.find(':') != std::string::npos ? fmt::format("[{}]", listen_)
+                                                                      : listen_;
+    const bool printed = token_ == "auto";
+    const std::string text =
+        fmt::format("Scans are in {}\nOpen http://{}:{}/{}{}\nCtrl-C ends the server\n", folder,
+                    host, port, printed ? "?token=" : "", printed ? access.token : "");
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+  }
+
+  static std::string own_name() {
+    char name[256] = "";
+    return gethostname(name, sizeof name - 1) == 0 ? name : "localhost";
+  }
+
+  std::string folder_ = "turnscan-scans";
+  std::string listen_ = kLoopback;
+  std::string token_;
+  int port_ = 8470;
+  bool print_openapi_ = false, no_wait_ = false;
+  ScanRequest request_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_serve_command() { return std::make_unique<ServeCommand>(); }
+
+}  // namespace turnscan::cli

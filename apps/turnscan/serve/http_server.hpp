@@ -1,0 +1,60 @@
+#pragma once
+// HTTP for a few people beside a turntable. cpp-httplib reads requests and writes responses; what a
+// peer may cost is bounded here: connections, bytes and time.
+
+#include <httplib.h>
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <turnscan/core/result.hpp>
+
+namespace turnscan::serve {
+
+inline constexpr std::size_t kMaxConnections = 48;
+/// Of one request: its line, headers and body.
+inline constexpr std::size_t kMaxRequestBytes = std::size_t(64) * 1024;
+inline constexpr std::size_t kMaxPathLength = 200;
+/// Until all of a request has come.
+inline constexpr std::chrono::seconds kRequestTime{10};
+/// Until a peer takes the next bytes of a response.
+inline constexpr std::chrono::seconds kStallTime{5};
+
+/// One request a connection. When all connections are in use, a new one takes the place of the one
+/// that has been longest without a whole request; if there is none, it is closed at once.
+class HttpServer : private httplib::Server {
+ public:
+  using Handler = std::function<void(const httplib::Request&, httplib::Response&)>;
+  /// Called before a body is read. False: the response says why the request is refused.
+  using Admission = std::function<bool(const httplib::Request&, httplib::Response&)>;
+
+  HttpServer(Admission admit, Handler answer);
+
+  /// port 0: any that is free. Returns the port. Fails with kIo.
+  Result<int> bind(const std::string& address, int port);
+  /// Serves until stop(), which may be called from any thread and ends all connections.
+  void run();
+  using httplib::Server::is_running;
+  void stop();
+
+ private:
+  class Queue;
+  struct Connection {
+    std::chrono::steady_clock::time_point since;
+    bool evictable = true;
+  };
+
+  bool process_and_close_socket(socket_t socket) override;
+  bool make_room();
+  void set_evictable(socket_t socket, bool evictable);
+  void finish(socket_t socket);
+
+  Admission admit_;
+  std::mutex mutex_;
+  std::map<socket_t, Connection> connections_;
+  std::size_t accepted_ = 0;  // and not closed
+};
+
+}  // namespace turnscan::serve

@@ -1,0 +1,420 @@
+"""turnscan serve: from the page to a mesh, and what must not be possible.
+
+TURNSCAN_SCREENSHOTS=FOLDER keeps what the browser shows.
+"""
+
+import http.client
+import json
+import os
+import pathlib
+import signal
+import socket
+import sys
+import threading
+import time
+
+import browser
+import harness
+from harness import FAILED, SENSOR, USAGE, run, start
+
+DEVICE = f"virtual:doll?sensor={SENSOR}&fps=3&speed=24deg/s&calibration=true"
+# A source that takes its time, so that something can happen to it meanwhile.
+SLOW = f"virtual:doll?sensor={SENSOR}&fps=10&speed=6deg/s&calibration=true&realtime=1&prepared=8"
+OPTIONS = ("--voxel-size", "4mm", "--min-free", "0")
+SHOTS = os.environ.get("TURNSCAN_SCREENSHOTS")
+SKIPPED = 77
+ENDS_WITHIN_S = 0.5
+MESHES = ("mesh.glb", "mesh.ply", "mesh.stl", "mesh.3mf")
+
+
+class Server(harness.TestCase):
+    def setUp(self):
+        super().setUp()
+        self.process = None
+        self.operator = {}
+
+    def serve(self, *args, folder="data"):
+        self.process = start("serve", folder, "--port", "0", "--device", DEVICE, "--device", SLOW,
+                             *OPTIONS, *args, cwd=self.dir)
+        self.addCleanup(self.kill, self.process)
+        self.process.stdout.readline()
+        self.address = self.process.stdout.readline().split()[1]
+        self.port = int(self.address.split(":")[2].split("/")[0])
+
+    @staticmethod
+    def kill(process):
+        process.kill()
+        process.wait()
+        process.stdout.close()
+        process.stderr.close()
+
+    def ask(self, method, path, body=None, **headers):
+        """Status, headers and content: JSON where it is."""
+        headers = {k.replace("_", "-"): v for k, v in headers.items()}
+        if body is not None:
+            headers.setdefault("Content-Type", "application/json")
+            body = body if isinstance(body, (str, bytes)) else json.dumps(body)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        try:
+            connection.request(method, path, body, {**self.operator, **headers})
+            response = connection.getresponse()
+            content = response.read()
+        finally:
+            connection.close()
+        if response.headers.get_content_type() == "application/json":
+            content = json.loads(content)
+        return response.status, response.headers, content
+
+    def got(self, method, path, body=None, status=200, **headers):
+        answer = self.ask(method, path, body, **headers)
+        self.assertEqual(answer[0], status, answer[2])
+        return answer[2]
+
+    def become_operator(self):
+        self.operator = {"Turnscan-Operator": self.got("POST", "/api/v1/operator")["key"]}
+
+    def start_scan(self, device=DEVICE, **more):
+        return self.got("POST", "/api/v1/scans", {"device": device, **more}, 202)["id"]
+
+    def wait_for(self, true, seconds=harness.HANG_S):
+        until = time.monotonic() + seconds
+        while time.monotonic() < until:
+            job = self.got("GET", "/api/v1/state")["job"]
+            if true(job):
+                return job
+            time.sleep(0.1)
+        raise AssertionError(f"it did not come to that: {job}")
+
+    def ended(self):
+        return self.wait_for(lambda job: job["state"] not in ("running", "asking"))
+
+    def raw(self, text, timeout=30):
+        """What comes back for these bytes, until the server closes."""
+        with socket.create_connection(("127.0.0.1", self.port), timeout) as peer:
+            try:
+                peer.sendall(text)
+            except OSError:
+                pass
+            content = b""
+            try:
+                while piece := peer.recv(65536):
+                    content += piece
+            except OSError:
+                pass
+            return content
+
+    def schema_holds(self, schema, value, where):
+        """The part of JSON schema that the description uses."""
+        if "$ref" in schema:
+            return self.schema_holds(self.schemas[schema["$ref"].rsplit("/", 1)[1]], value, where)
+        if "oneOf" in schema:
+            if value is None:
+                return self.assertIn({"type": "null"}, schema["oneOf"], where)
+            return self.schema_holds(schema["oneOf"][1], value, where)
+        if "enum" in schema:
+            self.assertIn(value, schema["enum"], where)
+        kinds = {"object": dict, "array": list, "string": str, "integer": int, "boolean": bool,
+                 "number": (int, float), "null": type(None)}
+        named = schema.get("type", [])
+        for_type = tuple(k for n in ([named] if isinstance(named, str) else named)
+                         for k in (kinds[n] if isinstance(kinds[n], tuple) else (kinds[n],)))
+        if for_type:
+            self.assertIsInstance(value, for_type, where)
+        if isinstance(value, dict):
+            for name in schema.get("required", []):
+                self.assertIn(name, value, where)
+            for name, inner in schema.get("properties", {}).items():
+                if name in value:
+                    self.schema_holds(inner, value[name], f"{where}.{name}")
+        if isinstance(value, list):
+            for one in value:
+                self.schema_holds(schema.get("items", {}), one, where)
+
+    def test_from_start_to_meshes_of_the_same_bytes(self):
+        self.serve()
+        self.become_operator()
+        scan = self.start_scan()
+        picture = self.wait_for(lambda job: job["picture"] or job["state"] == "asking")
+        if picture["picture"]:
+            self.assertEqual(self.got("GET", "/api/v1/picture.jpg")[:2], b"\xff\xd8")
+        asked = self.wait_for(lambda job: job["state"] not in ("running",))
+        self.assertEqual(asked["state"], "asking", asked)
+        self.assertIn("lay it", asked["question"]["advice"])
+        self.got("POST", "/api/v1/job/answer", {"another_side": 1}, 400)
+        self.got("POST", "/api/v1/job/answer", {"another_side": False}, 202)
+        job = self.ended()
+        self.assertEqual((job["id"], job["state"], job["error"]), (scan, "done", None))
+        described = self.got("GET", f"/api/v1/scans/{scan}")
+        names = [f["name"] for f in described["files"]]
+        for name in (*MESHES, "report.html", "report.json", "advice.png"):
+            self.assertIn(name, names)
+        verdict = self.got("GET", f"/api/v1/scans/{scan}/verdict")
+        self.assertIn(verdict["objects"][0]["verdict"]["colour"], ("green", "amber", "red"))
+        before = {name: self.got("GET", f"/api/v1/scans/{scan}/files/{name}") for name in MESHES}
+        for name in ("mesh.glb", "mesh.3mf"):
+            own = name.replace("mesh", "own")
+            self.ok("reconstruct", f"data/{scan}/recording", "--out", own, *OPTIONS[:2])
+            self.assertEqual((self.dir / own).read_bytes(), before[name], name)
+        # Once more from the kept recording.
+        self.got("POST", f"/api/v1/scans/{scan}/reconstruct", status=202)
+        self.assertEqual(self.ended()["state"], "done")
+        for name in MESHES:
+            self.assertEqual(self.got("GET", f"/api/v1/scans/{scan}/files/{name}"), before[name])
+        self.answers_are_as_described(scan)
+
+    def answers_are_as_described(self, scan):
+        described = self.got("GET", "/api/v1/openapi.json")
+        self.assertEqual(described, json.loads(self.ok("serve", "--openapi").stdout))
+        self.schemas = described["components"]["schemas"]
+        for path, operations in described["paths"].items():
+            content = operations.get("get", {}).get("responses", {}).get("200", {}).get("content", {})
+            for schema in [c["schema"] for c in content.values() if "schema" in c]:
+                self.schema_holds(schema, self.got("GET", path.replace("{id}", scan)), path)
+            unknown = path.replace("{id}", "20000101-000000").replace("{name}", "mesh.glb")
+            if unknown != path:
+                method = next(iter(operations)).upper()
+                self.schema_holds(self.schemas["Error"], self.got(method, unknown, status=404), path)
+
+    def test_it_is_for_this_machine_and_its_own_page_alone(self):
+        self.serve()
+        state = "/api/v1/state"
+        for host in ("evil.example", f"evil.example:{self.port}", "192.168.1.7", "localhost.evil.example",
+                     "", "[::1", "127.0.0.1.evil.example"):
+            self.got("GET", state, status=421, Host=host)
+        for host in ("localhost", f"127.0.0.1:{self.port}", "[::1]:80", "LOCALHOST:1"):
+            self.got("GET", state, Host=host)
+        self.assertIn(b" 421 ", self.raw(b"GET /api/v1/state HTTP/1.1\r\n\r\n"))
+        for origin in ("http://example.com", "null", f"https://127.0.0.1:{self.port}"):
+            self.got("POST", "/api/v1/operator", status=403, Origin=origin)
+        self.got("GET", state, status=403, Sec_Fetch_Site="cross-site")
+        self.got("GET", state, Origin=f"http://127.0.0.1:{self.port}")
+        self.got("POST", "/api/v1/scans", "device=x", 415, Content_Type="text/plain")
+        status, headers, _ = self.ask("GET", "/")
+        self.assertEqual(status, 200)
+        self.assertIn("default-src 'none'", headers["Content-Security-Policy"])
+        self.assertEqual(headers["X-Content-Type-Options"], "nosniff")
+        self.assertNotIn("Access-Control-Allow-Origin", headers)
+
+    def test_elsewhere_it_needs_a_token(self):
+        self.refused(USAGE, "serve", "--listen", "0.0.0.0", says="--token auto")
+        (self.dir / "token").write_text("short\n")
+        (self.dir / "token").chmod(0o600)
+        self.refused(USAGE, "serve", "--token", "token", says="is no token")
+        (self.dir / "token").write_text("0123456789abcdef\n")
+        (self.dir / "token").chmod(0o604)
+        self.refused(FAILED, "serve", "--token", "token", says="everybody can read")
+        (self.dir / "token").chmod(0o600)
+        self.serve("--listen", "0.0.0.0", "--token", "token")
+        for path in ("/", "/api/v1/state", "/api/v1/openapi.json", "/nothing", "/?token=0123456789abcdeX"):
+            self.got("GET", path, status=401)
+        self.got("GET", "/api/v1/state", status=401, Authorization="Bearer 0123456789abcdeX")
+        self.got("GET", "/api/v1/state", Authorization="Bearer 0123456789abcdef")
+        status, headers, _ = self.ask("GET", "/?token=0123456789abcdef")
+        self.assertEqual((status, headers["Location"]), (303, "/"))
+        self.assertIn("HttpOnly; SameSite=Strict", headers["Set-Cookie"])
+        cookie = headers["Set-Cookie"].split(";")[0]
+        self.got("GET", "/", Cookie="a=b; " + cookie)
+        self.got("GET", "/", status=401, Cookie=cookie[:-1])
+        self.got("GET", "/api/v1/state", Cookie=cookie, Host="192.168.1.7")
+        self.got("GET", "/api/v1/state", status=421, Cookie=cookie, Host="evil.example")
+
+    def test_no_path_leads_out_of_the_folder(self):
+        self.serve()
+        (self.dir / "mesh.ply").write_text("secret")
+        other = self.dir / "data" / "20260101-000000"
+        (other / "recording").mkdir(parents=True)
+        (other / "mesh.ply").symlink_to(self.dir / "mesh.ply")
+        (other / "notes.txt").write_text("secret")
+        (self.dir / "data" / "linked").symlink_to(self.dir)
+        for path in ("../mesh.ply", "..%2fmesh.ply", "....//mesh.ply", "%2e%2e/mesh.ply", "%00", "mesh.ply",
+                     "notes.txt", "recording", ".", "..", "%c0%ae%c0%ae/mesh.ply"):
+            for scan in ("20260101-000000", "..", "%2e%2e", "linked", ".", "", "20260101-000000%2f.."):
+                status, _, content = self.ask("GET", f"/api/v1/scans/{scan}/files/{path}")
+                self.assertIn(status, (400, 404), (scan, path))
+                self.assertNotIn("secret", str(content))
+        for device in (f"replay:{self.dir}", "virtual:/etc/passwd", None, ["x"], 1):
+            self.become_operator()
+            self.got("POST", "/api/v1/scans", {"device": device}, 400)
+        self.assertEqual(self.got("GET", "/api/v1/scans")["scans"], [{"id": "20260101-000000", "state": "damaged"}])
+
+    def test_malformed_and_oversized_requests_are_refused(self):
+        self.serve()
+        self.become_operator()
+        for body in (b"", b"{", b"[]", b"null", b"[" * 50000, b"\xff\xfe", b'{"device": {}}'):
+            self.got("POST", "/api/v1/scans", body, 400)
+        for passes in (0, 101, 1.5, "1", -1, 1e99):
+            self.got("POST", "/api/v1/scans", {"device": DEVICE, "passes": passes}, 400)
+        self.got("PUT", "/api/v1/state", status=405)
+        self.got("DELETE", "/api/v1/state", status=405)
+        self.got("GET", "/api/v1/" + "a" * 300, status=414)
+        self.got("GET", "/api/v2/state", status=404)
+        line = b"POST /api/v1/scans HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+        huge = b"x" * (8 << 20)
+        for text in (line + b"Content-Length: 8388608\r\n\r\n" + huge,
+                     line + b"Transfer-Encoding: chunked\r\n\r\n800000\r\n" + huge,
+                     line + b"Content-Length: 99999999999999999999\r\n\r\n{}",
+                     line + b"Content-Length: -1\r\n\r\n{}",
+                     b"GET /" + huge, huge, b"GET / HTTP/1.1\r\nX: " + huge, b"\0" * 1000, b"GET\r\n\r\n",
+                     b"GET / HTTP/1.1\r\nHost: localhost\r\nRange: bytes=" + b"1" * 8000 + b"\r\n\r\n",
+                     b"GET / HTTP/1.1\r\nHost: localhost\r\nRange: bytes=" + b"0-," * 2600 + b"0-\r\n\r\n",
+                     b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 20000 + b"\r\n"):
+            self.raw(text)
+            self.assertIsNone(self.process.poll(), f"it ended after {text[:60]}")
+        self.assertIsNone(self.got("GET", "/api/v1/state")["job"])
+
+    def test_peers_that_stall_do_not_keep_others_out(self):
+        self.serve()
+        stalled = []
+        self.addCleanup(lambda: [s.close() for s in stalled])
+        for i in range(120):  # more than there are connections
+            peer = socket.create_connection(("127.0.0.1", self.port), 10)
+            if i % 2:
+                peer.sendall(b"GET /api/v1/state HTTP/1.1\r\nHost: loc")
+            stalled.append(peer)
+        begun = time.monotonic()
+        self.got("GET", "/api/v1/state")
+        self.assertLess(time.monotonic() - begun, 2.0)
+
+    def test_watchers_see_the_state_and_are_limited(self):
+        self.serve()
+        self.become_operator()
+        streams = []
+        for _ in range(16):
+            peer = socket.create_connection(("127.0.0.1", self.port), 60)
+            peer.sendall(b"GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n\r\n")
+            self.assertIn(b"200 OK", peer.recv(4096))
+            streams.append(peer)
+            self.addCleanup(peer.close)
+        self.got("GET", "/api/v1/events", status=503)
+        self.start_scan(SLOW)
+        seen = b""
+        while b'"record"' not in seen:
+            seen += streams[3].recv(65536)
+        self.assertIn(b"event: state\ndata: {", seen)
+        streams.pop().close()  # a place for another one, as soon as the server writes
+        self.got("POST", "/api/v1/job/cancel", status=202)
+        self.assertEqual(self.ended()["state"], "cancelled")
+
+    def test_one_operates_and_leaving_stops_nothing(self):
+        self.serve()
+        self.got("POST", "/api/v1/scans", {"device": SLOW}, 403)
+        self.become_operator()
+        first = self.operator
+        self.operator = {}
+        self.got("POST", "/api/v1/operator", status=409)
+        self.got("POST", "/api/v1/operator", status=409, Turnscan_Operator="0" * 32)
+        self.got("POST", "/api/v1/scans", {"device": SLOW}, 403, Turnscan_Operator="0" * 32)
+        self.operator = first
+        scan = self.start_scan(SLOW)
+        self.got("POST", "/api/v1/scans", {"device": SLOW}, 409)
+        self.got("POST", "/api/v1/job/answer", {"another_side": True}, 409)
+        self.got("DELETE", "/api/v1/operator")
+        self.become_operator()
+        self.assertNotEqual(self.operator, first)
+        self.wait_for(lambda job: job["frames"] > 5)
+        self.got("POST", "/api/v1/job/cancel", status=403, **{"Turnscan-Operator": "x"})
+        self.got("POST", "/api/v1/job/cancel", status=202)
+        self.assertEqual(self.ended()["state"], "cancelled")
+        self.got("POST", "/api/v1/job/cancel", status=409)
+        described = self.got("GET", f"/api/v1/scans/{scan}")
+        self.assertEqual(described["state"], "recorded")
+        self.assertGreater(described["frames"], 5)
+        self.ok("info", f"data/{scan}/recording")
+
+    def test_a_device_that_fails_is_said_and_leaves_nothing(self):
+        broken = "virtual:doll?sensor=none-of-this-name"
+        self.serve("--device", broken)
+        self.become_operator()
+        self.start_scan(broken)
+        job = self.ended()
+        self.assertEqual(job["state"], "failed")
+        self.assertIn("none-of-this-name", job["error"])
+        self.assertEqual(list((self.dir / "data").iterdir()), [])
+
+    def end_in_mid_scan(self, how):
+        self.serve()
+        self.become_operator()
+        scan = self.start_scan(SLOW)
+        self.wait_for(lambda job: job["frames"] > 5)
+        peer = socket.create_connection(("127.0.0.1", self.port), 10)
+        self.addCleanup(peer.close)
+        peer.sendall(b"GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        begun = time.monotonic()
+        self.process.send_signal(how)
+        code = self.process.wait(10)
+        took = time.monotonic() - begun
+        self.serve()
+        return scan, code, took
+
+    def test_sigterm_ends_it_at_once_and_keeps_the_recording(self):
+        scan, code, took = self.end_in_mid_scan(signal.SIGTERM)
+        self.assertEqual(code, 0)
+        self.assertLess(took, ENDS_WITHIN_S)
+        described = self.got("GET", f"/api/v1/scans/{scan}")
+        self.assertIn(described["state"], ("recorded", "unfinished"))
+        self.assertGreater(described["frames"], 5)
+
+    def test_a_killed_server_lists_what_it_left(self):
+        scan, _, _ = self.end_in_mid_scan(signal.SIGKILL)
+        self.assertEqual(self.got("GET", "/api/v1/scans")["scans"], [{"id": scan, "state": "unfinished"}])
+        described = self.got("GET", f"/api/v1/scans/{scan}")
+        self.assertGreater(described["frames"], 5)
+        self.assertIn("turnscan capture --device", described["resume"])
+
+    def test_the_page_leads_to_a_mesh(self):
+        if not browser.find() or not has_page():
+            self.skipTest("there is no chromium, or turnscan was built without its page")
+        self.serve()
+        with browser.Browser() as chromium:
+            page = chromium.open_address(self.address, 360, 640)
+            title = "document.getElementById('title').textContent"
+            press = "document.querySelector('#buttons button').click()"
+            page.wait(f"{title} === 'Place the object' && document.querySelector('#device').options.length")
+            self.keep(page, "place-360")
+            page.evaluate(press)
+            page.wait(f"{title} === 'Recording'", harness.HANG_S)
+            page.wait("!document.getElementById('live').hidden")
+            self.keep(page, "record-360")
+            page.wait(f"{title} === 'Turn it over?'", harness.HANG_S)
+            page.wait("!document.getElementById('advice').hidden")
+            self.keep(page, "turn-360")
+            page.evaluate(press)
+            page.wait(f"{title} === 'The model is ready'")
+            page.wait("document.getElementById('model').dataset.state === 'drawn'")
+            page.wait("[...document.querySelectorAll('#files a')].some((a) => a.href.endsWith('mesh.3mf'))")
+            self.keep(page, "ready-360")
+            self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), 360)
+            self.assertEqual(page.complaints(), [])
+            for address in page.requests():
+                self.assertTrue(address.startswith((self.address, "blob:" + self.address)), address)
+            for width, height in ((768, 1024), (1440, 900)):
+                # A second page, in another language, of somebody who only watches.
+                other = chromium.open_address(self.address, width, height)
+                other.wait(f"{title} === 'The model is ready'")
+                other.wait("document.getElementById('model').dataset.state === 'drawn'")
+                other.evaluate("(l => { l.value = 'de'; l.dispatchEvent(new Event('change')); })"
+                               "(document.getElementById('language'))")
+                other.wait(f"{title} === 'Das Modell ist fertig'")
+                other.wait("document.getElementById('model').dataset.state === 'drawn'")
+                self.assertEqual(other.complaints(), [])
+                self.keep(other, f"ready-{width}")
+                other.call("Emulation.setEmulatedMedia",
+                           features=[{"name": "prefers-color-scheme", "value": "dark"}])
+                self.keep(other, f"ready-{width}-dark")
+
+    def keep(self, page, name):
+        if SHOTS:
+            page.screenshot(pathlib.Path(SHOTS) / f"serve-{name}.png")
+
+
+def has_page():
+    import shutil
+    folders = pathlib.Path(shutil.which(harness.BIN) or harness.BIN).resolve().parents
+    return any((f / "share/turnscan/page/serve.html").exists() for f in list(folders)[:4])
+
+
+if __name__ == "__main__":
+    if run("serve", "--openapi").returncode == USAGE:
+        print("skipped: turnscan was built without its server")
+        sys.exit(SKIPPED)
+    harness.main()
