@@ -61,6 +61,10 @@ class ServeCommand : public Command {
       session.print("{}\n", serve::openapi().dump(2));
       return {};
     }
+    if (request_.setup.options.limits.until_stopped)
+      return fail(ErrorCode::kInvalidOption,
+                  "--until-stopped: nobody is at the terminal to stop a scan; use --turns, "
+                  "--seconds or --frames");
     TURNSCAN_ASSIGN(serve::Access access, find_access());
     TURNSCAN_ASSIGN(serve::ScanStore store, serve::ScanStore::open(folder_));
     request_.wait = !no_wait_;
