@@ -34,13 +34,9 @@ std::string mode_text(const openni::VideoMode& mode) {
          std::to_string(mode.getFps());
 }
 
-}  // namespace
-}  // namespace turnscan::plugin
-
-struct turnscan_device {
+class Sensor {
  public:
-  turnscan_device(const std::string& address, const turnscan_parameter* parameters,
-                  std::int32_t count);
+  Sensor(const std::string& address, const turnscan_parameter* parameters, std::int32_t count);
 
   void describe(turnscan_device_info& info);
   void start();
@@ -58,9 +54,9 @@ struct turnscan_device {
   void read_color();
   void read_waiting_color();
 
-  turnscan::plugin::Device device_;
-  std::unique_ptr<turnscan::plugin::Disconnects> disconnects_;
-  turnscan::plugin::Stream depth_, color_;
+  Device device_;
+  std::unique_ptr<Disconnects> disconnects_;
+  Stream depth_, color_;
   openni::VideoMode mode_;
   openni::VideoFrameRef depth_frame_, color_frame_;
   std::vector<std::uint16_t> depth_pixels_;
@@ -71,10 +67,8 @@ struct turnscan_device {
   std::uint64_t frame_count_ = 0, frames_read_ = 0;
 };
 
-turnscan_device::turnscan_device(const std::string& address, const turnscan_parameter* parameters,
-                                 std::int32_t count)
-    : with_color_(turnscan::plugin::flag_of(parameters, count, "color", false)) {
-  using namespace turnscan::plugin;
+Sensor::Sensor(const std::string& address, const turnscan_parameter* parameters, std::int32_t count)
+    : with_color_(flag_of(parameters, count, "color", false)) {
   const std::string hfov = value_of(parameters, count, "hfov", "");
   if (!hfov.empty()) hfov_rad_ = number_of(hfov, "hfov", 1, 179) * std::numbers::pi / 180.0;
   const std::string speed = value_of(parameters, count, "speed", "max");
@@ -91,8 +85,7 @@ turnscan_device::turnscan_device(const std::string& address, const turnscan_para
   if (file_) play_file();
 }
 
-void turnscan_device::open(const std::string& address) {
-  using namespace turnscan::plugin;
+void Sensor::open(const std::string& address) {
   // The library would open a pipe, and wait for its writer without end.
   std::error_code error;
   const auto status = std::filesystem::status(address, error);
@@ -115,8 +108,7 @@ void turnscan_device::open(const std::string& address) {
 
 /// The mode that is set, or the one that the user names; in tenths of a millimetre where the sensor
 /// offers them.
-void turnscan_device::choose_mode(const std::string& wish) {
-  using namespace turnscan::plugin;
+void Sensor::choose_mode(const std::string& wish) {
   mode_ = depth_.stream.getVideoMode();
   const std::string want = wish.empty() ? mode_text(mode_) : wish;
   std::string known;
@@ -141,8 +133,7 @@ void turnscan_device::choose_mode(const std::string& wish) {
 }
 
 /// Colour that the sensor itself lays on the depth image, of the same size; else none.
-void turnscan_device::choose_color() {
-  using turnscan::plugin::Failure;
+void Sensor::choose_color() {
   with_color_ = false;
   if (file_ || !device_.device.hasSensor(openni::SENSOR_COLOR) ||
       !device_.device.isImageRegistrationModeSupported(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR) ||
@@ -155,26 +146,24 @@ void turnscan_device::choose_color() {
   if (color_.stream.setVideoMode(mode) != openni::STATUS_OK ||
       device_.device.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR) !=
           openni::STATUS_OK)
-    throw Failure{TURNSCAN_UNSUPPORTED, "the sensor has no colour of " +
-                                            turnscan::plugin::mode_text(mode_) +
+    throw Failure{TURNSCAN_UNSUPPORTED, "the sensor has no colour of " + mode_text(mode_) +
                                             "; leave out color=1 or choose another mode"};
   color_.stream.setMirroringEnabled(false);
   device_.device.setDepthColorSyncEnabled(true);
   with_color_ = true;
 }
 
-void turnscan_device::play_file() {
+void Sensor::play_file() {
   openni::PlaybackControl* control = device_.device.getPlaybackControl();
   if (control == nullptr)
-    throw turnscan::plugin::Failure{TURNSCAN_FAILED, "the file cannot be played; record it again"};
+    throw Failure{TURNSCAN_FAILED, "the file cannot be played; record it again"};
   control->setRepeatEnabled(false);
   control->setSpeed(as_fast_as_possible_ ? -1.0F : 1.0F);
   const int count = control->getNumberOfFrames(depth_.stream);
   frame_count_ = count > 0 ? static_cast<std::uint64_t>(count) : 0;
 }
 
-void turnscan_device::describe(turnscan_device_info& info) {
-  using namespace turnscan::plugin;
+void Sensor::describe(turnscan_device_info& info) {
   put_text(info.model, model_);
   put_text(info.serial, serial_);
   turnscan_camera& camera = info.camera;
@@ -197,15 +186,14 @@ void turnscan_device::describe(turnscan_device_info& info) {
   info.frame_count = frame_count_;
 }
 
-void turnscan_device::start() {
-  using namespace turnscan::plugin;
+void Sensor::start() {
   if (started_) return;
   if (depth_.stream.start() != openni::STATUS_OK) throw open_failure(last_error());
   started_ = depth_.was_started = color_.was_started = true;
   if (with_color_ && color_.stream.start() != openni::STATUS_OK) throw open_failure(last_error());
 }
 
-void turnscan_device::stop() {
+void Sensor::stop() {
   if (!started_) return;
   depth_frame_.release();
   color_frame_.release();
@@ -214,14 +202,13 @@ void turnscan_device::stop() {
   started_ = false;
 }
 
-void turnscan_device::check_connected() const {
+void Sensor::check_connected() const {
   if (disconnects_->gone())
-    throw turnscan::plugin::Failure{TURNSCAN_LOST,
-                                    "the sensor went away; check the cable and the power supply"};
+    throw Failure{TURNSCAN_LOST, "the sensor went away; check the cable and the power supply"};
 }
 
 /// Whether there is a frame of depth; takes in colour on the way.
-bool turnscan_device::wait(double timeout_s) {
+bool Sensor::wait(double timeout_s) {
   openni::VideoStream* streams[2] = {&depth_.stream, &color_.stream};
   int ready = -1;
   const auto status = openni::OpenNI::waitForAnyStream(
@@ -229,9 +216,7 @@ bool turnscan_device::wait(double timeout_s) {
   if (status == openni::STATUS_TIME_OUT) return false;
   if (status != openni::STATUS_OK) {
     check_connected();
-    throw turnscan::plugin::Failure{
-        TURNSCAN_LOST,
-        "the sensor stopped (" + turnscan::plugin::last_error() + "); check the cable"};
+    throw Failure{TURNSCAN_LOST, "the sensor stopped (" + last_error() + "); check the cable"};
   }
   if (ready == 1) {
     read_color();
@@ -240,7 +225,7 @@ bool turnscan_device::wait(double timeout_s) {
   return true;
 }
 
-void turnscan_device::read_color() {
+void Sensor::read_color() {
   if (color_.stream.readFrame(&color_frame_) != openni::STATUS_OK || !color_frame_.isValid())
     return;
   const int row = 3 * color_frame_.getWidth();
@@ -254,14 +239,14 @@ void turnscan_device::read_color() {
 }
 
 /// Colours that came with the depth: of two streams that are ready only the first is told.
-void turnscan_device::read_waiting_color() {
+void Sensor::read_waiting_color() {
   openni::VideoStream* stream = &color_.stream;
   int ready = -1;
   if (with_color_ && openni::OpenNI::waitForAnyStream(&stream, 1, &ready, 0) == openni::STATUS_OK)
     read_color();
 }
 
-bool turnscan_device::read_depth() {
+bool Sensor::read_depth() {
   if (depth_.stream.readFrame(&depth_frame_) != openni::STATUS_OK || !depth_frame_.isValid()) {
     check_connected();
     return false;
@@ -278,7 +263,7 @@ bool turnscan_device::read_depth() {
   return true;
 }
 
-std::int32_t turnscan_device::grab(double timeout_s, turnscan_frame& frame) {
+std::int32_t Sensor::grab(double timeout_s, turnscan_frame& frame) {
   check_connected();
   if (file_ && frames_read_ >= frame_count_) return TURNSCAN_END;
   // A file that is read as fast as possible brings a frame when it is asked for one.
@@ -295,12 +280,47 @@ std::int32_t turnscan_device::grab(double timeout_s, turnscan_frame& frame) {
     frame.color_width = color_frame_.getWidth();
     frame.color_height = color_frame_.getHeight();
   }
-  frame.time_s = static_cast<double>(depth_frame_.getTimestamp()) * turnscan::plugin::kMicrosecond;
+  frame.time_s = static_cast<double>(depth_frame_.getTimestamp()) * kMicrosecond;
   frame.number = depth_frame_.getFrameIndex() > 0
                      ? static_cast<std::uint64_t>(depth_frame_.getFrameIndex())
                      : 0;
   return TURNSCAN_OK;
 }
+
+}  // namespace
+}  // namespace turnscan::plugin
+
+/// A sensor that is called from one thread only, which never ends.
+struct turnscan_device {
+ public:
+  turnscan_device(const std::string& address, const turnscan_parameter* parameters,
+                  std::int32_t count) {
+    caller_.call(
+        [&] { sensor_ = std::make_unique<turnscan::plugin::Sensor>(address, parameters, count); });
+  }
+  ~turnscan_device() {
+    caller_.call([&] { sensor_.reset(); });
+  }
+  turnscan_device(const turnscan_device&) = delete;
+  turnscan_device& operator=(const turnscan_device&) = delete;
+
+  void describe(turnscan_device_info& info) {
+    caller_.call([&] { sensor_->describe(info); });
+  }
+  void start() {
+    caller_.call([&] { sensor_->start(); });
+  }
+  void stop() {
+    caller_.call([&] { sensor_->stop(); });
+  }
+  std::int32_t grab(double timeout_s, turnscan_frame& frame) {
+    return caller_.call([&] { return sensor_->grab(timeout_s, frame); });
+  }
+
+ private:
+  turnscan::plugin::Caller caller_;
+  std::unique_ptr<turnscan::plugin::Sensor> sensor_;
+};
 
 namespace turnscan::plugin {
 namespace {

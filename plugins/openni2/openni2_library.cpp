@@ -1,5 +1,6 @@
 #include "openni2_library.hpp"
 
+#include <condition_variable>
 #include <mutex>
 
 namespace turnscan::plugin {
@@ -55,7 +56,66 @@ void start_library() {
   started = true;
 }
 
-std::vector<turnscan_device_entry> find_devices() {
+struct Caller::Thread {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::function<void()> job;
+
+  [[noreturn]] void work() {
+    for (;;) {
+      std::unique_lock lock(mutex);
+      changed.wait(lock, [this] { return job != nullptr; });
+      const auto next = std::exchange(job, nullptr);
+      lock.unlock();
+      next();
+    }
+  }
+};
+
+namespace {
+
+/// Threads that nobody uses now. Never destroyed: they wait when the program ends.
+struct IdleThreads {
+  std::mutex mutex;
+  std::vector<Caller::Thread*> threads;
+
+  static IdleThreads& all() {
+    static auto* const idle = new IdleThreads;
+    return *idle;
+  }
+};
+
+}  // namespace
+
+Caller::Caller() : thread_(nullptr) {
+  IdleThreads& idle = IdleThreads::all();
+  const std::lock_guard lock(idle.mutex);
+  if (!idle.threads.empty()) {
+    thread_ = idle.threads.back();
+    idle.threads.pop_back();
+    return;
+  }
+  thread_ = new Thread;
+  std::thread([thread = thread_] { thread->work(); }).detach();
+}
+
+Caller::~Caller() {
+  IdleThreads& idle = IdleThreads::all();
+  const std::lock_guard lock(idle.mutex);
+  idle.threads.push_back(thread_);
+}
+
+void Caller::run(std::function<void()> job) {
+  {
+    const std::lock_guard lock(thread_->mutex);
+    thread_->job = std::move(job);
+  }
+  thread_->changed.notify_one();
+}
+
+namespace {
+
+std::vector<turnscan_device_entry> connected_devices() {
   start_library();
   openni::Array<openni::DeviceInfo> devices;
   openni::OpenNI::enumerateDevices(&devices);
@@ -67,5 +127,9 @@ std::vector<turnscan_device_entry> find_devices() {
   }
   return found;
 }
+
+}  // namespace
+
+std::vector<turnscan_device_entry> find_devices() { return Caller().call(connected_devices); }
 
 }  // namespace turnscan::plugin

@@ -5,6 +5,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <future>
+#include <memory>
 #include <thread>
 
 #include "../plugin_support.hpp"
@@ -17,11 +20,41 @@ std::string last_error();
 /// What `why` means for who wants to open a device.
 Failure open_failure(const std::string& why);
 
+/// Calls OpenNI 2 from a thread that never ends, for as long as this object lives; another one may
+/// get the thread after it. The library keeps messages for each thread that ever called it, and
+/// asks the system by pthread_kill() whether the thread still exists, which is undefined for one
+/// that has ended: it crashed once the memory of its stack was gone.
+class Caller {
+ public:
+  Caller();
+  ~Caller();
+  Caller(const Caller&) = delete;
+  Caller& operator=(const Caller&) = delete;
+
+  /// What the function returns or throws.
+  template <class Function>
+  auto call(const Function& function) {
+    using Task = std::packaged_task<decltype(function())()>;
+    const auto task = std::make_shared<Task>(function);
+    auto result = task->get_future();
+    run([task] { (*task)(); });
+    return result.get();
+  }
+
+  struct Thread;
+
+ private:
+  /// Does not wait for its end.
+  void run(std::function<void()> job);
+
+  Thread* thread_;
+};
+
 /// Started once in a process. It is not shut down: drivers leave threads behind that would then run
 /// without their library.
 void start_library();
 
-/// What is connected.
+/// What is connected, asked by a Caller of its own.
 std::vector<turnscan_device_entry> find_devices();
 
 class Disconnects : public openni::OpenNI::DeviceDisconnectedListener {
