@@ -294,11 +294,6 @@ TEST(ShareOfNeighbours, IsNothingOrZeroWhereNothingTells) {
   EXPECT_FALSE(estimation::share_of_neighbours(parallel, 0.0015));
 }
 
-TEST(NoiseLeftByFilter, IsThatOfTheMeanOfThePixels) {
-  EXPECT_DOUBLE_EQ(estimation::noise_left_by_filter(0.0), 1.0);
-  EXPECT_NEAR(estimation::noise_left_by_filter(1.0 / 3.0), 1.0 / 3.0, 1e-12);  // of nine pixels
-}
-
 TEST(ViewDrawing, HoldsTheNearestSurfaceAndItsLight) {
   const TriangleMesh mesh = plate();
   views::DepthView view = camera(0.0);

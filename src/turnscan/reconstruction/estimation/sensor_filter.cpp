@@ -19,7 +19,7 @@ constexpr double kNoiseSlack = 3.0;
 /// Smaller shares have no relevant effect on edges.
 constexpr double kMinShare = 0.1;
 /// Maximum misfit of the ratios of variances, relative to a mesh: errors of the mesh fit no filter.
-constexpr double kMaxMiss = 0.08;
+constexpr double kMaxMiss = 0.12;
 constexpr std::size_t kMaxDrawn = 24;  // views for which a mesh is rendered
 /// In units of the noise: points farther from the mesh are not on its surface.
 constexpr double kFarthestOff = 8.0;
@@ -112,7 +112,6 @@ double spread(std::vector<double>& values) {
 
 /// Covariances of a filtered row at distances of 0, 1 and 2 pixels, for independent noise of
 /// variance 1.
-/// variance 1.
 std::array<double, 3> covariances(double share) {
   const double own = 1.0 - 2.0 * share;
   return {own * own + 2.0 * share * share, 2.0 * share * own, share * share};
@@ -179,8 +178,5 @@ double share_of_neighbours(std::span<const views::DepthView> views, const Triang
   Differences all = joined(own);
   return share_from(all, 6.0, kMaxMiss, double(unit_m), noise_m).value_or(0.0);
 }
-
-/// Along rows and down columns, each the root of the variance.
-double noise_left_by_filter(double share) { return covariances(share)[0]; }
 
 }  // namespace turnscan::estimation

@@ -19,8 +19,4 @@ std::optional<double> share_of_neighbours(std::span<const views::DepthView> view
 double share_of_neighbours(std::span<const views::DepthView> views, const TriangleMesh& mesh,
                            double noise_m);
 
-/// Standard deviation after the filter of independent depth values with unit deviation before it:
-/// 1, down to 1/3 if three by three pixels are averaged.
-double noise_left_by_filter(double share);
-
 }  // namespace turnscan::estimation

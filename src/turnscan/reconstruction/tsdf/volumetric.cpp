@@ -97,10 +97,10 @@ class VolumetricReconstruction {
                         return merge_clustered_vertices(std::move(component), surface.grid,
                                                         context_);
                       }));
-      const double share = filter_share(even);
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(even, input_.views, fit_scale(), context_);
                       }));
+      const double share = filter_share(fitted.mesh);
       if (options_.sharpen && share > 0.0)
         TURNSCAN_TRY(timed("sharpen", [&] {
           return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(), context_);
