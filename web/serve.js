@@ -110,11 +110,13 @@ function step() {
   if (job && dismissed !== job.id + job.state) {
     const go = () => { dismissed = job.id + job.state; draw(); $('title').focus(); };
     if (job.state === 'done')
-      return {title: 'doneTitle', say: text('doneText'), buttons: [[text('another'), go, true]]};
-    return {title: job.state === 'failed' ? 'failedTitle' : 'cancelledTitle', say: text('failed'),
+      return {title: 'doneTitle', say: [text('doneText'), ...job.notes].join(' '), buttons: [[text('another'), go, true]]};
+    return {title: job.state === 'failed' ? 'failedTitle' : 'cancelledTitle',
+            say: job.frames > 0 ? text('failed') : '',
             error: job.error, buttons: [[text('again'), go, true]]};
   }
-  return {title: 'placeTitle', say: text('place'), choice: true, buttons: [[text('start'), start, true]]};
+  return {title: 'placeTitle', say: text('place'), choice: true,
+          buttons: devices.length ? [[text('start'), start, true]] : []};
 }
 
 function draw() {
@@ -136,7 +138,7 @@ function draw() {
   show($('advice'), now.advice ? `${API}scans/${job.id}/files/advice.png?${job.question.pass}` : '', text('advice'));
   if (now.error) trouble(now.error);
   // Rebuilt only when it says something else, so that the focus stays.
-  const id = [title, viewer, state.operator, job?.id, document.documentElement.lang].join();
+  const id = [title, viewer, state.operator, job?.id, now.buttons.length, document.documentElement.lang].join();
   if (id !== shownStep) {
     shownStep = id;
     const had = $('buttons').contains(document.activeElement);
@@ -242,7 +244,7 @@ async function listScans() {
   $('scans').hidden = !scans.length;
   $('scan-list').replaceChildren(...scans.map((scan) => {
     const [day, time] = scan.id.split('-');
-    const name = `${day.slice(0, 4)}-${day.slice(4, 6)}-${day.slice(6)} ${time?.slice(0, 2)}:${time?.slice(2, 4)}`;
+    const name = !time ? scan.id : `${day.slice(0, 4)}-${day.slice(4, 6)}-${day.slice(6)} ${time?.slice(0, 2)}:${time?.slice(2, 4)}`;
     const made = button(name, async () => { await showResult(scan.id); $('result').scrollIntoView(); });
     made.append(element('span', {class: 'soft'}, text(scan.state === 'done' ? 'done_' : scan.state)));
     const item = element('li');
@@ -273,13 +275,22 @@ function speak(language) {
   if (shown) showResult(shown);
 }
 
+let lost = false;
+
 function watch() {
   const events = new EventSource(API + 'events');
-  events.addEventListener('state', (event) => { trouble(''); take(JSON.parse(event.data)); });
+  events.addEventListener('state', (event) => {
+    if (lost) trouble('');
+    lost = false;
+    take(JSON.parse(event.data));
+  });
   // It tries again by itself, unless it was refused.
-  events.onerror = () => {
+  events.onerror = async () => {
+    lost = true;
     trouble(text('lost'));
-    if (events.readyState === EventSource.CLOSED) setTimeout(watch, 3000);
+    if (events.readyState !== EventSource.CLOSED) return;
+    setTimeout(watch, 3000);
+    await ask('GET', 'state').catch((error) => { if (error.status) trouble(error.message); });
   };
 }
 

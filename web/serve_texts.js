@@ -11,11 +11,11 @@ const en = {
   doneTitle: 'The model is ready', doneText: 'Look at it below, or scan another object.', another: 'Scan another object',
   failedTitle: 'That did not work', failed: 'What was recorded is kept.', cancelledTitle: 'Cancelled', again: 'Try again',
   cancel: 'Cancel', viewerTitle: 'Somebody else operates the turntable', take: 'Operate the turntable',
-  lost: 'The server does not answer. What it scans goes on; this page tries again.', live: 'What the sensor sees',
+  lost: 'The server does not answer. This page tries again.', live: 'What the sensor sees',
   advice: 'How to lay the object', model: 'The model in 3D', modelHelp: 'Turn it with a finger, the mouse or the arrow keys; zoom with two fingers or + and −.',
   noModel: 'This browser cannot draw the model in 3D.', green: 'Good', amber: 'Good, with reservations', red: 'Not good',
   open: 'Report', reconstruct: 'Compute the model', resume: 'It was not finished. It goes on with this command:',
-  unfinished: 'not finished', recorded: 'recorded', done_: 'done', damaged: 'damaged',
+  running: 'running', unfinished: 'not finished', recorded: 'recorded', done_: 'done', damaged: 'damaged',
   good: 'good', fair: 'fair', bad: 'bad'
 };
 const es = {
@@ -29,11 +29,11 @@ const es = {
   doneTitle: 'El modelo está listo', doneText: 'Véalo abajo o escanee otro objeto.', another: 'Escanear otro objeto',
   failedTitle: 'No ha funcionado', failed: 'Lo grabado se conserva.', cancelledTitle: 'Cancelado', again: 'Intentar de nuevo',
   cancel: 'Cancelar', viewerTitle: 'Otra persona maneja el plato', take: 'Manejar el plato',
-  lost: 'El servidor no responde. El escaneo continúa; esta página lo intenta de nuevo.', live: 'Lo que ve el sensor',
+  lost: 'El servidor no responde. Esta página lo intenta de nuevo.', live: 'Lo que ve el sensor',
   advice: 'Cómo colocar el objeto', model: 'El modelo en 3D', modelHelp: 'Gírelo con el dedo, el ratón o las flechas; amplíe con dos dedos o con + y −.',
   noModel: 'Este navegador no puede dibujar el modelo en 3D.', green: 'Bueno', amber: 'Bueno, con reservas', red: 'No es bueno',
   open: 'Informe', reconstruct: 'Calcular el modelo', resume: 'No se terminó. Continúa con esta orden:',
-  unfinished: 'sin terminar', recorded: 'grabado', done_: 'listo', damaged: 'dañado',
+  running: 'en curso', unfinished: 'sin terminar', recorded: 'grabado', done_: 'listo', damaged: 'dañado',
   good: 'bien', fair: 'regular', bad: 'mal'
 };
 const de = {
@@ -47,11 +47,11 @@ const de = {
   doneTitle: 'Das Modell ist fertig', doneText: 'Sehen Sie es unten an, oder scannen Sie ein weiteres Objekt.', another: 'Weiteres Objekt scannen',
   failedTitle: 'Das ging nicht', failed: 'Was aufgenommen wurde, bleibt erhalten.', cancelledTitle: 'Abgebrochen', again: 'Noch einmal versuchen',
   cancel: 'Abbrechen', viewerTitle: 'Jemand anderes bedient den Drehteller', take: 'Drehteller bedienen',
-  lost: 'Der Server antwortet nicht. Sein Scan läuft weiter; diese Seite versucht es erneut.', live: 'Was der Sensor sieht',
+  lost: 'Der Server antwortet nicht. Diese Seite versucht es erneut.', live: 'Was der Sensor sieht',
   advice: 'So soll das Objekt liegen', model: 'Das Modell in 3D', modelHelp: 'Drehen mit Finger, Maus oder Pfeiltasten; Zoomen mit zwei Fingern oder + und −.',
   noModel: 'Dieser Browser kann das Modell nicht in 3D zeichnen.', green: 'Gut', amber: 'Gut, mit Vorbehalt', red: 'Nicht gut',
   open: 'Bericht', reconstruct: 'Modell berechnen', resume: 'Nicht beendet. Dieser Befehl setzt fort:',
-  unfinished: 'nicht beendet', recorded: 'aufgenommen', done_: 'fertig', damaged: 'beschädigt',
+  running: 'läuft', unfinished: 'nicht beendet', recorded: 'aufgenommen', done_: 'fertig', damaged: 'beschädigt',
   good: 'gut', fair: 'mäßig', bad: 'schlecht'
 };
 const fr = {
@@ -65,11 +65,11 @@ const fr = {
   doneTitle: 'Le modèle est prêt', doneText: 'Regardez-le ci-dessous ou numérisez un autre objet.', another: 'Numériser un autre objet',
   failedTitle: 'Cela n’a pas marché', failed: 'Ce qui a été enregistré est conservé.', cancelledTitle: 'Annulé', again: 'Réessayer',
   cancel: 'Annuler', viewerTitle: 'Quelqu’un d’autre utilise le plateau', take: 'Utiliser le plateau',
-  lost: 'Le serveur ne répond pas. Sa numérisation continue ; cette page réessaie.', live: 'Ce que voit le capteur',
+  lost: 'Le serveur ne répond pas. Cette page réessaie.', live: 'Ce que voit le capteur',
   advice: 'Comment poser l’objet', model: 'Le modèle en 3D', modelHelp: 'Tournez-le du doigt, à la souris ou avec les flèches ; zoomez à deux doigts ou avec + et −.',
   noModel: 'Ce navigateur ne peut pas dessiner le modèle en 3D.', green: 'Bon', amber: 'Bon, avec réserves', red: 'Pas bon',
   open: 'Rapport', reconstruct: 'Calculer le modèle', resume: 'Inachevé. Cette commande le continue :',
-  unfinished: 'inachevé', recorded: 'enregistré', done_: 'prêt', damaged: 'endommagé',
+  running: 'en cours', unfinished: 'inachevé', recorded: 'enregistré', done_: 'prêt', damaged: 'endommagé',
   good: 'bon', fair: 'moyen', bad: 'mauvais'
 };
 

@@ -3,6 +3,7 @@
 TURNSCAN_SCREENSHOTS=FOLDER keeps what the browser shows.
 """
 
+import gzip
 import http.client
 import json
 import os
@@ -211,7 +212,7 @@ class Server(harness.TestCase):
         self.got("GET", "/api/v1/state", Authorization="Bearer 0123456789abcdef")
         status, headers, _ = self.ask("GET", "/?token=0123456789abcdef")
         self.assertEqual((status, headers["Location"]), (303, "/"))
-        self.assertIn("HttpOnly; SameSite=Strict", headers["Set-Cookie"])
+        self.assertIn("HttpOnly; SameSite=Lax", headers["Set-Cookie"])
         cookie = headers["Set-Cookie"].split(";")[0]
         self.got("GET", "/", Cookie="a=b; " + cookie)
         self.got("GET", "/", status=401, Cookie=cookie[:-1])
@@ -250,6 +251,14 @@ class Server(harness.TestCase):
         self.got("GET", "/api/v2/state", status=404)
         line = b"POST /api/v1/scans HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
         huge = b"x" * (8 << 20)
+        packed = gzip.compress(b'{"device":' + b"[" * 400000 + b"]" * 400000 + b"}")
+        deep = b'{"device":' + b"[" * 30000 + b"]" * 30000 + b"}"
+        self.got("POST", "/api/v1/scans", deep, 400)
+        self.got("POST", "/api/v1/scans", packed, 415, Content_Encoding="gzip")
+        # As curl sends it, without a length.
+        begun = time.monotonic()
+        self.assertIn(b" 403 ", self.raw(b"POST /api/v1/job/cancel HTTP/1.1\r\nHost: localhost\r\n\r\n"))
+        self.assertLess(time.monotonic() - begun, 5.0)
         for text in (line + b"Content-Length: 8388608\r\n\r\n" + huge,
                      line + b"Transfer-Encoding: chunked\r\n\r\n800000\r\n" + huge,
                      line + b"Content-Length: 99999999999999999999\r\n\r\n{}",
@@ -261,6 +270,13 @@ class Server(harness.TestCase):
             self.raw(text)
             self.assertIsNone(self.process.poll(), f"it ended after {text[:60]}")
         self.assertIsNone(self.got("GET", "/api/v1/state")["job"])
+
+    def test_a_second_server_does_not_take_the_port(self):
+        self.serve()
+        second = start("serve", "other", "--port", str(self.port), cwd=self.dir)
+        self.addCleanup(self.kill, second)
+        self.assertEqual(second.wait(timeout=30), FAILED)
+        self.assertIn("cannot listen", second.stderr.read())
 
     def test_peers_that_stall_do_not_keep_others_out(self):
         self.serve()
@@ -291,7 +307,16 @@ class Server(harness.TestCase):
         while b'"record"' not in seen:
             seen += streams[3].recv(65536)
         self.assertIn(b"event: state\ndata: {", seen)
-        streams.pop().close()  # a place for another one, as soon as the server writes
+        streams.pop().close()
+        deadline = time.monotonic() + 2.0
+        while True:  # its place is free
+            peer = socket.create_connection(("127.0.0.1", self.port), 60)
+            self.addCleanup(peer.close)
+            peer.sendall(b"GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n\r\n")
+            if b"200 OK" in peer.recv(4096):
+                break
+            self.assertLess(time.monotonic(), deadline)
+        self.assertIn("running", [scan["state"] for scan in self.got("GET", "/api/v1/scans")["scans"]])
         self.got("POST", "/api/v1/job/cancel", status=202)
         self.assertEqual(self.ended()["state"], "cancelled")
 

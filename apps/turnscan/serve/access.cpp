@@ -113,6 +113,9 @@ std::optional<Refusal> refusal(const Access& access, const httplib::Request& req
   if (request.method != "GET" && request.method != "HEAD" && request.method != "POST" &&
       request.method != "DELETE")
     return Refusal{405, "method", "use GET, POST or DELETE"};
+  // What it unpacks to has no bound.
+  if (request.has_header("Content-Encoding"))
+    return Refusal{415, "encoding", "a body must not be packed"};
   const std::string type = request.get_header_value("Content-Type");
   if (!type.empty() && type.rfind("application/json", 0) != 0)
     return Refusal{415, "type", "a body has to be application/json"};

@@ -1,6 +1,7 @@
 #include "serve/http_server.hpp"
 
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -36,7 +37,12 @@ class PeerStream : public httplib::Stream {
   explicit PeerStream(socket_t socket) : socket_(socket) {}
 
   bool is_readable() const override { return used_ < filled_ || ready(socket_, POLLIN, deadline_); }
-  bool is_writable() const override { return ready(socket_, POLLOUT, Clock::now() + kStallTime); }
+  /// Not if the peer has closed its side.
+  bool is_writable() const override {
+    char next = 0;
+    return recv(socket_, &next, 1, MSG_PEEK | MSG_DONTWAIT) != 0 &&
+           ready(socket_, POLLOUT, Clock::now() + kStallTime);
+  }
 
   ssize_t read(char* bytes, size_t size) override {
     if (used_ == filled_) {
@@ -109,6 +115,18 @@ class HttpServer::Queue : public httplib::TaskQueue {
 HttpServer::HttpServer(Admission admit, Handler answer) : admit_(std::move(admit)) {
   new_task_queue = [this] { return new Queue(*this); };
   set_payload_max_length(kMaxRequestBytes);
+  // Two servers must not share a port, and a peer that vanished is given up; its sockets inherit
+  // that.
+  set_socket_options([](socket_t socket) {
+    const int yes = 1, vanished_ms = 15'000;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    setsockopt(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, &vanished_ms, sizeof vanished_ms);
+  });
+  set_exception_handler([](const httplib::Request&, httplib::Response& response, const auto&...) {
+    response.status = 500;
+    response.set_content(R"({"error":{"code":"internal","message":"the server has a fault"}})",
+                         "application/json");
+  });
   set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
     return admit_(request, response) ? HandlerResponse::Unhandled : HandlerResponse::Handled;
   });
@@ -117,9 +135,10 @@ HttpServer::HttpServer(Admission admit, Handler answer) : admit_(std::move(admit
     set_evictable(served, false);
     answer(request, response);
   };
-  Get(".*", answered);
-  Post(".*", answered);
-  Delete(".*", answered);
+  constexpr const char* kEverything = R"([\s\S]*)";
+  Get(kEverything, answered);
+  Post(kEverything, answered);
+  Delete(kEverything, answered);
 }
 
 Result<int> HttpServer::bind(const std::string& address, int port) {
@@ -186,6 +205,9 @@ bool HttpServer::process_and_close_socket(socket_t socket) {
     request.ranges.clear();
     request.headers.erase("Range");
     request.headers.erase("Accept-Encoding");
+    // The library would read a body that nobody announced until the peer closes.
+    if (!request.has_header("Content-Length") && !request.has_header("Transfer-Encoding"))
+      request.headers.emplace("Content-Length", "0");
   };
   // From 0.18 on the library is told both addresses, which nobody asks for.
   const bool done = [&](auto& self) {

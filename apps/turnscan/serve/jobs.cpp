@@ -30,6 +30,10 @@ ReconstructFiles files_in(const fs::path& folder, const ScanRequest& settings) {
   return files;
 }
 
+void note_apart(const ReconstructRun& run, std::vector<std::string>& notes) {
+  if (const auto joined = check_joined(run.apart); !joined) notes.push_back(joined.error().message);
+}
+
 }  // namespace
 
 Jobs::Jobs(ScanStore store, ScanRequest settings)
@@ -118,7 +122,7 @@ void Jobs::finish(Result<std::vector<std::string>> notes) {
     id = job.id;
     if (notes) {
       job.state = State::kDone;
-      job.notes = std::move(*notes);
+      for (const std::string& note : *notes) job.notes.push_back(without_folder(note));
     } else {
       job.state = notes.error().code == ErrorCode::kCancelled ? State::kCancelled : State::kFailed;
       job.error = without_folder(notes.error().text());
@@ -145,8 +149,7 @@ Result<std::vector<std::string>> Jobs::scan(ScanRequest request, Job& job) {
   TURNSCAN_ASSIGN(ScanOutcome outcome, run_scan(std::move(request), hooks, job.context));
   TURNSCAN_TRY(write_other_meshes(outcome.run, folder));
   std::vector<std::string> notes = std::move(outcome.notes);
-  if (const auto joined = check_joined(outcome.run.apart); !joined)
-    notes.push_back(joined.error().message);
+  note_apart(outcome.run, notes);
   return notes;
 }
 
@@ -170,8 +173,9 @@ Result<std::vector<std::string>> Jobs::reconstruct(const fs::path& folder, Job& 
   TURNSCAN_ASSIGN(const ReconstructRun run,
                   run_reconstruction(named, request, job.context, write_meshes));
   TURNSCAN_TRY(write_beside(files, run, run_report(run, request.options), job.context));
-  TURNSCAN_TRY(check_joined(run.apart));
-  return std::vector<std::string>();
+  std::vector<std::string> notes;
+  note_apart(run, notes);
+  return notes;
 }
 
 Result<> Jobs::write_other_meshes(const ReconstructRun& run, const fs::path& folder) {

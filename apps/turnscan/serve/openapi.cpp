@@ -49,7 +49,7 @@ constexpr const char* kSchemas = R"json({
   "Scans": {"type": "object", "required": ["scans"], "properties": {"scans": {
     "type": "array", "items": {"type": "object", "required": ["id", "state"], "properties": {
       "id": {"type": "string"}, "state": {"$ref": "#/components/schemas/ScanState"}}}}}},
-  "ScanState": {"enum": ["unfinished", "recorded", "done", "damaged"]},
+  "ScanState": {"enum": ["running", "unfinished", "recorded", "done", "damaged"]},
   "Scan": {"type": "object", "required": ["id", "state", "bytes", "files"], "properties": {
     "id": {"type": "string"}, "state": {"$ref": "#/components/schemas/ScanState"},
     "started_at": {"type": ["string", "null"]}, "device": {"type": "string"},

@@ -160,7 +160,7 @@ void Rig::answer(const httplib::Request& request, httplib::Response& response) {
 
 void Rig::show_page(const httplib::Request& request, httplib::Response& response) const {
   if (request.has_param("token")) {  // which must not stay in the address
-    response.set_header("Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/",
+    response.set_header("Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Lax; Path=/",
                                                   kTokenCookie, access_.token));
     response.set_redirect("/", 303);
     return;
@@ -181,9 +181,15 @@ void Rig::run(const Route& route, Call& call) {
                   "only the operator may do that; become it (POST /api/v1/operator) and send its "
                   "key as Turnscan-Operator");
   if (*route.body != '\0') {
-    call.body = Json::parse(call.request.body, nullptr, false);
-    if (!call.body.is_object())
-      return refuse(call.response, 400, "invalid-option", "the body has to be a JSON object");
+    // No body nests; a deep one would be copied until the stack ends.
+    bool nests = false;
+    const auto flat = [&](int depth, Json::parse_event_t, const Json&) {
+      nests |= depth > kMaxDepth;
+      return depth <= kMaxDepth;
+    };
+    call.body = Json::parse(call.request.body, flat, false);
+    if (nests || !call.body.is_object())
+      return refuse(call.response, 400, "invalid-option", "the body has to be a flat JSON object");
   }
   call.response.status = route.status;
   Result<Json> result = (this->*route.run)(call);
@@ -218,7 +224,7 @@ Result<Json> Rig::events(Call& call) {
   };
   const auto watcher = std::make_shared<Watcher>(watchers_);
   const auto send = [this, watcher](std::size_t, httplib::DataSink& sink) {
-    if (stopping_) return false;
+    if (stopping_ || !sink.is_writable()) return false;
     std::string text = text_of(state_now());
     const auto now = std::chrono::steady_clock::now();
     std::string event;
@@ -278,7 +284,21 @@ Result<Json> Rig::leave(Call& call) {
   return Json::object();
 }
 
-Result<Json> Rig::scans(Call&) { return Json{{"scans", store_.list()}}; }
+/// A recording that is being made looks unfinished on the disk.
+void Rig::mark_running(Json& scan) const {
+  const Json job = jobs_.state();
+  if (scan["state"] != "unfinished" || job.is_null() || job["id"] != scan["id"] ||
+      (job["state"] != "running" && job["state"] != "asking"))
+    return;
+  scan["state"] = "running";
+  scan.erase("resume");
+}
+
+Result<Json> Rig::scans(Call&) {
+  Json all = store_.list();
+  for (Json& one : all) mark_running(one);
+  return Json{{"scans", all}};
+}
 
 Result<Json> Rig::start_scan(Call& call) {
   const Json device = call.body.value("device", Json()), passes = call.body.value("passes", Json());
@@ -297,7 +317,11 @@ Result<Json> Rig::start_scan(Call& call) {
   return Json{{"id", id}};
 }
 
-Result<Json> Rig::scan(Call& call) { return store_.describe(call.names[0]); }
+Result<Json> Rig::scan(Call& call) {
+  TURNSCAN_ASSIGN(Json out, store_.describe(call.names[0]));
+  mark_running(out);
+  return out;
+}
 
 Result<Json> Rig::verdict(Call& call) { return store_.verdict(call.names[0]); }
 

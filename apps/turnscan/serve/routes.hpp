@@ -21,6 +21,7 @@ namespace turnscan::serve {
 
 /// Pages that watch at once.
 inline constexpr int kMaxWatchers = 16;
+inline constexpr int kMaxDepth = 4;  ///< of a body
 
 /// One request on its way to an answer.
 struct Call {
@@ -82,6 +83,7 @@ class Rig {
   void show_page(const httplib::Request& request, httplib::Response& response) const;
   void run(const Route& route, Call& call);
   Json state_now() const;
+  void mark_running(Json& scan) const;
   Json found_devices();
 
   ScanStore store_;

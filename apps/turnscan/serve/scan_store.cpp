@@ -57,7 +57,8 @@ Json read_report(const std::string& text) {
            (value != "expected_error_m" && value != "seen_by" && value != "invented");
   };
   Json report = Json::parse(text, keep, false);
-  if (report.is_object() && report.contains("reconstruction")) {
+  if (report.is_object() && report.contains("reconstruction") &&
+      report["reconstruction"].is_object()) {
     Json inner = report["reconstruction"];
     inner["next_pass"] = report.value("next_pass", Json());
     return inner;
