@@ -18,6 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLinger{500};
+constexpr std::chrono::milliseconds kVanished{15'000};  // a peer that acknowledges nothing
 
 // Which connection a thread serves, for the callbacks of the library, and whether it is one too
 // many.
@@ -115,12 +116,10 @@ class HttpServer::Queue : public httplib::TaskQueue {
 HttpServer::HttpServer(Admission admit, Handler answer) : admit_(std::move(admit)) {
   new_task_queue = [this] { return new Queue(*this); };
   set_payload_max_length(kMaxRequestBytes);
-  // Two servers must not share a port, and a peer that vanished is given up; its sockets inherit
-  // that.
+  // Two servers must not share a port.
   set_socket_options([](socket_t socket) {
-    const int yes = 1, vanished_ms = 15'000;
+    const int yes = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    setsockopt(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, &vanished_ms, sizeof vanished_ms);
   });
   set_exception_handler([](const httplib::Request&, httplib::Response& response, const auto&...) {
     response.status = 500;
@@ -147,6 +146,8 @@ Result<int> HttpServer::bind(const std::string& address, int port) {
   if (bound < 0)
     return fail(ErrorCode::kIo, "cannot listen at {}, port {}{}; choose another --port or --listen",
                 address, port, errno != 0 ? fmt::format(" ({})", std::strerror(errno)) : "");
+  // The library lets five wait, and those beyond try again after a second.
+  ::listen(svr_sock_, kMaxConnections);
   return bound;
 }
 
@@ -163,11 +164,11 @@ bool HttpServer::make_room() {
   if (accepted_ >= kMaxConnections) {
     auto oldest = connections_.end();
     for (auto it = connections_.begin(); it != connections_.end(); ++it)
-      if (it->second.evictable &&
+      if (it->second.evictable && !it->second.evicted &&
           (oldest == connections_.end() || it->second.since < oldest->second.since))
         oldest = it;
     if (oldest == connections_.end()) return false;
-    oldest->second.evictable = false;
+    oldest->second.evicted = true;  // its place is given only once
     shutdown(oldest->first, SHUT_RDWR);
   }
   ++accepted_;
@@ -194,10 +195,12 @@ bool HttpServer::process_and_close_socket(socket_t socket) {
   }
   {
     const std::lock_guard lock(mutex_);
-    connections_[socket] = {Clock::now()};
+    connections_[socket].since = Clock::now();
   }
   if (!is_running()) shutdown(socket, SHUT_RDWR);  // stop() did not see it
   served = socket;
+  const int vanished_ms = int(kVanished.count());
+  setsockopt(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, &vanished_ms, sizeof vanished_ms);
   PeerStream stream(socket);
   bool closed = false;
   // Packing would cost seconds of a small processor, and parts of files are not asked for.

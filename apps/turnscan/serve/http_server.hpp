@@ -43,7 +43,7 @@ class HttpServer : private httplib::Server {
   class Queue;
   struct Connection {
     std::chrono::steady_clock::time_point since;
-    bool evictable = true;
+    bool evictable = true, evicted = false;
   };
 
   bool process_and_close_socket(socket_t socket) override;
