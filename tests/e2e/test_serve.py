@@ -289,7 +289,7 @@ class Server(harness.TestCase):
             stalled.append(peer)
         begun = time.monotonic()
         self.got("GET", "/api/v1/state")
-        self.assertLess(time.monotonic() - begun, 2.0)
+        self.assertLess(time.monotonic() - begun, 5.0)
 
     def test_watchers_see_the_state_and_are_limited(self):
         self.serve()
@@ -308,7 +308,7 @@ class Server(harness.TestCase):
             seen += streams[3].recv(65536)
         self.assertIn(b"event: state\ndata: {", seen)
         streams.pop().close()
-        deadline = time.monotonic() + 2.0
+        deadline = time.monotonic() + 5.0
         while True:  # its place is free
             peer = socket.create_connection(("127.0.0.1", self.port), 60)
             self.addCleanup(peer.close)
