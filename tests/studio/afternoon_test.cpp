@@ -341,9 +341,12 @@ TEST_F(Afternoon, NothingIsLostAndEverythingIsSaid) {
   }
   window.close();
   EXPECT_TRUE(at_stake.isEmpty()) << at_stake.join("\n").toStdString();
-  EXPECT_TRUE(SessionKeeper::find_lost(SessionKeeper::default_root()) ||
-              window.explorer().store().unsaved().isEmpty());
-  qunsetenv("XDG_DATA_HOME");
+  EXPECT_TRUE(window.explorer().store().unsaved().contains("skull mesh"));
+  qunsetenv("XDG_DATA_HOME");  // where the killed one kept its session, not this window
+  const QDir sessions(SessionKeeper::default_root());
+  const QStringList kept = sessions.entryList(QDir::Dirs | QDir::NoDotAndDotDot);
+  ASSERT_EQ(kept.size(), 1) << "the one of this window, which is still there";
+  EXPECT_TRUE(sessions.exists(kept[0] + "/session.json"));
 }
 
 }  // namespace

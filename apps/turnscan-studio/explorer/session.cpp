@@ -46,7 +46,10 @@ SessionKeeper::SessionKeeper(ModelStore& store, const QString& root, QObject* pa
 SessionKeeper::~SessionKeeper() {
   writer_.clear();
   writer_.waitForDone();
-  if (lock_ && !stays_) remove_folder(folder_);
+  if (stays_) return;
+  if (lock_) remove_folder(folder_);
+  // A session that was restored, if nothing has been written since.
+  for (const QString& lost : taken_over_) remove_folder(lost);
 }
 
 bool SessionKeeper::set_stays(bool stays) {

@@ -30,6 +30,17 @@ bool VtkCanvas::event(QEvent* event) {
   return QVTKOpenGLNativeWidget::event(event);
 }
 
+/// Shown to those who came by the keyboard; others have seen where they clicked.
+void SceneView::focusInEvent(QFocusEvent* event) {
+  focus_shown_ = event->reason() != Qt::MouseFocusReason && event->reason() != Qt::OtherFocusReason;
+  update_overlay();
+}
+
+void SceneView::focusOutEvent(QFocusEvent* /*event*/) {
+  focus_shown_ = false;
+  update_overlay();
+}
+
 bool SceneView::on_mouse(QEvent* event) {
   switch (event->type()) {
     case QEvent::MouseButtonPress:

@@ -72,6 +72,10 @@ void SceneView::paint_overlay(QPainter& painter) {
   if (!parts_->legend.entries.empty()) paint_legend(painter);
   if (parts_->marks) parts_->marks(painter);
   if (tool_) tool_->paint(painter);
+  if (!focus_shown_) return;
+  painter.setPen(QPen(parts_->theme->accent, 2));
+  painter.setBrush(Qt::NoBrush);
+  painter.drawRect(QRectF(rect()).adjusted(1, 1, -1, -1));
 }
 
 void SceneView::paint_scale_bar(QPainter& painter) {

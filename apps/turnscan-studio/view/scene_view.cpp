@@ -35,6 +35,7 @@ SceneView::SceneView(QWidget* parent) : QWidget(parent), parts_(std::make_unique
   Parts& p = *parts_;
   p.canvas = new VtkCanvas(this);
   p.canvas->setMouseTracking(true);
+  p.canvas->setFocusPolicy(Qt::NoFocus);  // the view takes the keys
   p.overlay = new ViewOverlay(this);
   p.window->SetMultiSamples(0);
   p.canvas->setRenderWindow(p.window);

@@ -171,6 +171,8 @@ class SceneView : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
   void showEvent(QShowEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
 
  private:
   friend class VtkCanvas;
@@ -207,6 +209,7 @@ class SceneView : public QWidget {
 
   std::unique_ptr<Parts> parts_;
   ViewTool* tool_ = nullptr;
+  bool focus_shown_ = false;
 };
 
 }  // namespace turnscan::studio
