@@ -6,7 +6,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QStyle>
 #include <QVBoxLayout>
 #include <cmath>
 #include <turnscan/capture/session/device_calibration.hpp>
@@ -24,6 +23,7 @@
 #include "view/scene_view.hpp"
 #include "widgets/option_form.hpp"
 #include "widgets/section.hpp"
+#include "widgets/theme.hpp"
 
 namespace turnscan::studio {
 
@@ -234,8 +234,7 @@ void ScannerMode::clear_picks() {
 QString ScannerMode::problem_of_picks(const Calibration& picked) const {
   if (!(picked.residual_rms_m > kMovedShift_m)) return {};
   return tr("The points are %1 off a circle (root mean square); %2 is the limit. Undo those that "
-            "are "
-            "not on the rim")
+            "are not on the rim")
       .arg(mm(picked.residual_rms_m), mm(kMovedShift_m, 0));
 }
 
@@ -296,12 +295,9 @@ void ScannerMode::show_platter(const LiveState& state) {
     how = "fair";
   }
   chip_->setVisible(!text.isEmpty() && !state.recording);
-  if (text == chip_->text() && how == chip_->property("grade").toString()) return;
   if (how != "fair") chip_->setToolTip({});
   chip_->setText(text);
-  chip_->setProperty("grade", how);
-  chip_->style()->unpolish(chip_);
-  chip_->style()->polish(chip_);
+  set_style_property(*chip_, "grade", how);
 }
 
 void ScannerMode::show_calibration(std::shared_ptr<const Calibration> calibration, bool kept) {

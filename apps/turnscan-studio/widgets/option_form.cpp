@@ -8,12 +8,12 @@
 #include <QSettings>
 #include <QSignalBlocker>
 #include <QSlider>
-#include <QStyle>
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 
 #include "widgets/no_wheel.hpp"
 #include "widgets/text.hpp"
+#include "widgets/theme.hpp"
 
 namespace turnscan::studio {
 
@@ -199,10 +199,7 @@ void OptionForm::show_on_slider(const Row& row) {
   const QSignalBlocker quiet(row.slider);
   // In the middle and pale where the value is automatic: it is none of the ends.
   row.slider->setValue(value ? step_of(*row.field, *value) : row.slider->maximum() / 2);
-  if (row.slider->property("automatic").toBool() == !value) return;
-  row.slider->setProperty("automatic", !value);
-  row.slider->style()->unpolish(row.slider);
-  row.slider->style()->polish(row.slider);
+  set_style_property(*row.slider, "automatic", !value);
 }
 
 void OptionForm::take(std::size_t index, const QString& text) {
@@ -242,10 +239,7 @@ void OptionForm::show_problem(Row& row) {
   const bool bad = !row.problem.isEmpty();
   row.error->setText(row.problem);
   row.error->setVisible(bad);
-  if (row.editor->property("invalid").toBool() == bad) return;
-  row.editor->setProperty("invalid", bad);
-  row.editor->style()->unpolish(row.editor);
-  row.editor->style()->polish(row.editor);
+  set_style_property(*row.editor, "invalid", bad);
 }
 
 void OptionForm::show_value(const Row& row) {

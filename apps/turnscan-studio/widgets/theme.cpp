@@ -2,7 +2,10 @@
 
 #include <QApplication>
 #include <QPalette>
+#include <QStyle>
 #include <QStyleFactory>
+#include <QVariant>
+#include <QWidget>
 #include <array>
 
 namespace turnscan::studio {
@@ -206,6 +209,13 @@ void apply_theme(QApplication& app, const Theme& theme) {
   app.setStyle(QStyleFactory::create("Fusion"));
   app.setPalette(palette_of(theme));
   app.setStyleSheet(sheet_of(theme));
+}
+
+void set_style_property(QWidget& widget, const char* name, const QVariant& value) {
+  if (widget.property(name) == value) return;
+  widget.setProperty(name, value);
+  widget.style()->unpolish(&widget);
+  widget.style()->polish(&widget);
 }
 
 QColor model_color(int number) {

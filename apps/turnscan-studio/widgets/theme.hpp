@@ -5,6 +5,8 @@
 #include <QString>
 
 class QApplication;
+class QVariant;
+class QWidget;
 
 namespace turnscan::studio {
 
@@ -19,6 +21,9 @@ const Theme& dark_theme();
 
 /// Applies the theme's palette and style sheet to the whole program.
 void apply_theme(QApplication& app, const Theme& theme);
+
+/// Sets a property that the style sheet selects by, and draws the widget accordingly.
+void set_style_property(QWidget& widget, const char* name, const QVariant& value);
 
 /// Distinct, readable on both themes; repeats after 10.
 QColor model_color(int number);

@@ -34,6 +34,12 @@ void declare_capture(CommandLine& line, CaptureSetup& setup) {
   line.group("motor", "Motor", describe(setup.motor));
 }
 
+void declare_scan(CommandLine& line, ScanRequest& request, bool& no_wait) {
+  line.flag("--no-wait", no_wait, "Do not wait until something stands on the platter");
+  line.flag("--allow-open", request.allow_open, "Write meshes that are not watertight, too");
+  declare_capture(line, request.setup);
+}
+
 void declare_table(CommandLine& line, CaptureSetup& setup) {
   line.group("table", "Turntable", describe_speed(setup));
   line.group("crop", "Crop", describe(setup.options.crop));

@@ -1,9 +1,10 @@
 #pragma once
-// Command-line arguments shared by turnscan capture and turnscan scan.
+// Command-line arguments shared by turnscan capture, scan and serve.
 
 #include <functional>
 #include <string>
 #include <turnscan/workflow/scan/capture_setup.hpp>
+#include <turnscan/workflow/scan/scan.hpp>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -18,6 +19,9 @@ inline constexpr const char* kResumeHelp =
 
 /// All options of a setup except --device, limits, speed and crop.
 void declare_capture(CommandLine& line, CaptureSetup& setup);
+
+/// What turnscan scan and turnscan serve share: those, and whether to wait and what to write.
+void declare_scan(CommandLine& line, ScanRequest& request, bool& no_wait);
 
 /// Speed and crop, whose names collide with those of stages in turnscan scan.
 void declare_table(CommandLine& line, CaptureSetup& setup);

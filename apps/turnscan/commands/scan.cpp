@@ -50,9 +50,7 @@ class ScanCommand : public Command {
     line.option("--advice-picture", "FILE.png", request_.advice_picture,
                 "Draw how to lay the object for the next pass, beside how it lay; surface that no "
                 "view saw is magenta");
-    line.flag("--no-wait", no_wait_, "Do not wait until something stands on the platter");
-    line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
-    declare_capture(line, request_.setup);
+    declare_scan(line, request_, no_wait_);
     line.group("passes", "Passes", describe(passes_));
     line.group("limits", "End of the recording", describe(request_.setup.options.limits));
     line.group("ahead", "Processing while recording", describe(request_.ahead));

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <thread>
+#include <turnscan/core/process/host_name.hpp>
 
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
@@ -41,9 +42,7 @@ class ServeCommand : public Command {
     line.repeatable("--device", "URI", request_.setup.devices,
                     "Sensor to offer besides those that are found, e.g. "
                     "'virtual:doll?sensor=kinect-v2'; may be given several times");
-    line.flag("--no-wait", no_wait_, "Do not wait until something stands on the platter");
-    line.flag("--allow-open", request_.allow_open, "Write meshes that are not watertight, too");
-    declare_capture(line, request_.setup);
+    declare_scan(line, request_, no_wait_);
     line.group("server", "Server", describe(port_));
     line.group("limits", "End of the recording", turnscan::describe(request_.setup.options.limits));
     line.group("mesh-file", "Mesh file", turnscan::describe(request_.mesh_options));
@@ -104,21 +103,16 @@ class ServeCommand : public Command {
 
   /// At once, for people and for scripts that wait for it.
   void say_where(const std::string& folder, const serve::Access& access, int port) const {
-    const bool everywhere = listen_ == "0.0.0.0" || listen_ == "::";
-    const std::string host = everywhere                               ? own_name()
-                             : listen_.find(':') != std::string::npos ? fmt::format("[{}]", listen_)
-                                                                      : listen_;
+    std::string host = listen_;
+    if (listen_ == "0.0.0.0" || listen_ == "::") host = process::host_name();
+    if (host.empty()) host = "localhost";
+    if (host.find(':') != std::string::npos) host = fmt::format("[{}]", host);
     const bool printed = token_ == "auto";
     const std::string text =
         fmt::format("Scans are in {}\nOpen http://{}:{}/{}{}\nCtrl-C ends the server\n", folder,
                     host, port, printed ? "?token=" : "", printed ? access.token : "");
     std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
-  }
-
-  static std::string own_name() {
-    char name[256] = "";
-    return gethostname(name, sizeof name - 1) == 0 ? name : "localhost";
   }
 
   std::string folder_ = "turnscan-scans";

@@ -2,11 +2,11 @@
 
 #include <arpa/inet.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <turnscan/core/process/host_name.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 
 #include "serve/http_server.hpp"
@@ -38,17 +38,11 @@ bool is_address(const std::string& host) {
          inet_pton(AF_INET6, host.c_str(), address.data()) == 1;
 }
 
-std::string own_name() {
-  std::array<char, 256> name{};
-  if (gethostname(name.data(), name.size() - 1) != 0) return "";
-  return host_of(std::string(name.data()) + ":");
-}
-
 /// A name that only we could have let point here; to an address nothing can be made to point.
 bool is_own_host(const Access& access, const std::string& host) {
   if (Access::is_loopback(host)) return true;
   if (access.loopback) return false;
-  static const std::string name = own_name();
+  static const std::string name = host_of(process::host_name() + ":");
   return is_address(host) || (!name.empty() && (host == name || host == name + ".local"));
 }
 

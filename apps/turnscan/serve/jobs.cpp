@@ -48,7 +48,8 @@ Jobs::~Jobs() {
 }
 
 Result<> Jobs::check_free() const {
-  if (running()) return fail(ErrorCode::kDeviceBusy, "the rig is at work; wait for it or cancel");
+  if (!running_id().empty())
+    return fail(ErrorCode::kDeviceBusy, "the rig is at work; wait for it or cancel");
   return {};
 }
 
@@ -235,14 +236,14 @@ Result<> Jobs::answer(bool another_side) {
 }
 
 Result<> Jobs::cancel() {
-  if (!running()) return fail(ErrorCode::kMissingData, "the rig does nothing");
+  if (running_id().empty()) return fail(ErrorCode::kMissingData, "the rig does nothing");
   end(std::chrono::milliseconds(0));
   return {};
 }
 
-bool Jobs::running() const {
+std::string Jobs::running_id() const {
   const std::lock_guard lock(mutex_);
-  return job_ && (job_->state == State::kRunning || job_->state == State::kAsking);
+  return job_ && !job_->ended() ? job_->id : "";
 }
 
 bool Jobs::end(std::chrono::milliseconds most) {
@@ -250,9 +251,7 @@ bool Jobs::end(std::chrono::milliseconds most) {
   if (!job_) return true;
   job_->context.cancel();
   changed();
-  return wake_.wait_for(lock, most, [this] {
-    return job_->state != State::kRunning && job_->state != State::kAsking;
-  });
+  return wake_.wait_for(lock, most, [this] { return job_->ended(); });
 }
 
 Json Jobs::state() const {

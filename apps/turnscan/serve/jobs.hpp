@@ -45,7 +45,8 @@ class Jobs {
   /// Ends the job; what was recorded stays. Fails with kMissingData if there is none.
   Result<> cancel();
 
-  bool running() const;
+  /// Of the job that runs, or asks; empty: none does.
+  std::string running_id() const;
   /// The last job: {id, kind, state, phase, fraction, seconds_left, frames, picture, question,
   /// error, notes}; null before the first.
   Json state() const;
@@ -73,6 +74,7 @@ class Jobs {
     std::string error;
     std::vector<std::string> notes;
     std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+    bool ended() const { return state != State::kRunning && state != State::kAsking; }
   };
   using Work = std::function<Result<std::vector<std::string>>(Job&)>;
 

@@ -69,6 +69,13 @@ int status_of(ErrorCode code) {
   }
 }
 
+/// A recording that is being made looks unfinished on the disk.
+void mark_running(Json& scan, const std::string& running_id) {
+  if (scan["state"] != "unfinished" || scan["id"] != running_id) return;
+  scan["state"] = "running";
+  scan.erase("resume");
+}
+
 void set_headers(httplib::Response& response) {
   response.set_header("X-Content-Type-Options", "nosniff");
   response.set_header("Referrer-Policy", "no-referrer");
@@ -269,7 +276,7 @@ Json Rig::found_devices() {
 Result<Json> Rig::devices(Call&) {
   const std::lock_guard lock(devices_mutex_);
   // A driver that looks for devices may disturb one that records.
-  if (!jobs_.running() || devices_.is_null()) devices_ = found_devices();
+  if (jobs_.running_id().empty() || devices_.is_null()) devices_ = found_devices();
   return Json{{"devices", devices_}};
 }
 
@@ -284,19 +291,10 @@ Result<Json> Rig::leave(Call& call) {
   return Json::object();
 }
 
-/// A recording that is being made looks unfinished on the disk.
-void Rig::mark_running(Json& scan) const {
-  const Json job = jobs_.state();
-  if (scan["state"] != "unfinished" || job.is_null() || job["id"] != scan["id"] ||
-      (job["state"] != "running" && job["state"] != "asking"))
-    return;
-  scan["state"] = "running";
-  scan.erase("resume");
-}
-
 Result<Json> Rig::scans(Call&) {
   Json all = store_.list();
-  for (Json& one : all) mark_running(one);
+  const std::string running_id = jobs_.running_id();
+  for (Json& one : all) mark_running(one, running_id);
   return Json{{"scans", all}};
 }
 
@@ -319,7 +317,7 @@ Result<Json> Rig::start_scan(Call& call) {
 
 Result<Json> Rig::scan(Call& call) {
   TURNSCAN_ASSIGN(Json out, store_.describe(call.names[0]));
-  mark_running(out);
+  mark_running(out, jobs_.running_id());
   return out;
 }
 

@@ -83,7 +83,6 @@ class Rig {
   void show_page(const httplib::Request& request, httplib::Response& response) const;
   void run(const Route& route, Call& call);
   Json state_now() const;
-  void mark_running(Json& scan) const;
   Json found_devices();
 
   ScanStore store_;

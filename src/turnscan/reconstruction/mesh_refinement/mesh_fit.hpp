@@ -11,11 +11,9 @@
 namespace turnscan::mesh_refinement {
 
 struct MeshFitScale {
-  double noise_m = 0.001;     ///< of a depth value along its ray
-  double spacing_m = 0.0024;  ///< of the points of one frame
-  double edge_m = 0.001;      ///< usual length of the mesh's edges
-  double reach_m = 0.0013;    ///< reach across the normal; measurements beyond it are ignored
-  double floor_m = 0.0002;    ///< of errors that do not decrease with the incidence angle
+  double noise_m = 0.001;   ///< of a depth value along its ray
+  double reach_m = 0.0013;  ///< reach across the normal; measurements beyond it are ignored
+  double floor_m = 0.0002;  ///< of errors that do not decrease with the incidence angle
   /// Least bending stiffness of the surface relative to the measurements. The fit raises it up to
   /// 256 times wherever the measurements of independent groups of views allow.
   double stiffness = 15.0;

@@ -81,6 +81,10 @@ void VertexObserver::set_vertices(const std::vector<Vec3f>& positions,
       columns_[std::size_t(a + 3)][i] = normals[v][a];
     }
   });
+  patches_.resize(blocks());
+  parallel_for(patches_.size(), 16, [&](std::size_t b) {
+    patches_[b] = patch(b * kBlock, std::min(order_.size(), (b + 1) * kBlock));
+  });
 }
 
 Result<VertexMeasurements> VertexObserver::observe(std::span<const views::DepthView> views,
@@ -101,7 +105,7 @@ Result<VertexMeasurements> VertexObserver::observe(std::span<const views::DepthV
   std::vector<float> weight(pad(n), 0.0f), offset(pad(n), 0.0f);
   TURNSCAN_TRY(parallel_for(blocks(), 1, context, [&](std::size_t b) {
     const std::size_t begin = b * kBlock, end = std::min(n, begin + kBlock);
-    const Patch around = patch(begin, end);
+    const Patch& around = patches_[b];
     VertexSums sums{weight.data(), offset.data()};
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       const views::DepthView& view = views[chosen[k]];

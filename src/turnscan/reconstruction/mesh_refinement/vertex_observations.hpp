@@ -35,6 +35,7 @@ class VertexObserver {
 
   std::vector<std::uint32_t> order_;  ///< vertex of each index in the columns
   std::array<std::vector<float>, 6> columns_;
+  std::vector<Patch> patches_;  ///< of each block
 };
 
 }  // namespace turnscan::mesh_refinement

@@ -210,8 +210,6 @@ class VolumetricReconstruction {
     const VolumeScale& volume = scale_.volume;
     MeshFitScale scale;
     scale.noise_m = input_.noise_m;
-    scale.spacing_m = input_.spacing_m;
-    scale.edge_m = volume.cell_m;
     scale.reach_m = scale_.fit_reach_m;
     scale.floor_m = 0.1 * input_.noise_m + 0.1 * volume.cell_m;
     scale.limit_m = 2.0 * volume.cell_m;

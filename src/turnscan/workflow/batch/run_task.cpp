@@ -3,11 +3,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <system_error>
 #include <thread>
 #include <turnscan/core/process/background_process.hpp>
+#include <turnscan/core/process/host_name.hpp>
 #include <turnscan/core/stopwatch.hpp>
 #include <turnscan/io/file/file_lock.hpp>
 #include <turnscan/workflow/batch/batch_folder.hpp>
@@ -26,11 +26,6 @@ constexpr auto kGrace = std::chrono::seconds(5);  // between SIGTERM and SIGKILL
 
 double seconds_since_1970() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
 // In each folder that a task's outputs are made in, so that only such a folder is ever deleted.
@@ -97,13 +92,13 @@ class TaskRun {
         settings_(settings),
         context_(context),
         own_(own),
-        work_(fmt::format("work-{}-{}", host_name(), ::getpid())) {}
+        work_(fmt::format("work-{}-{}", process::host_name(), ::getpid())) {}
 
   Result<> run(const TaskRecord& before) {
     TURNSCAN_TRY(remove_leftovers(own_));
     record_.state = TaskState::kRunning;
     record_.attempts = before.attempts + 1;
-    record_.host = host_name();
+    record_.host = process::host_name();
     record_.started_s = seconds_since_1970();
     record_.threads = settings_.threads;
     TURNSCAN_TRY(folder_.save_record(task_.name, record_));
