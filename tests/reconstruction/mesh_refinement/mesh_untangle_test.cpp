@@ -32,7 +32,7 @@ std::ptrdiff_t faults(const TriangleMesh& mesh) {
 TEST(UntangleMesh, TwoSidesThatPassedThroughEachOtherLieNearEachOther) {
   TriangleMesh mesh = crossed(0.012f);
   ASSERT_GT(faults(mesh), 0);
-  ASSERT_TRUE(untangle(mesh, sheet().vertices, RunContext()));
+  ASSERT_TRUE(untangle(mesh, sheet().vertices, {}, RunContext()));
   EXPECT_EQ(faults(mesh), 0);
   // The middles of both sides.
   const float apart = mesh.vertices[0].y() - mesh.vertices[mesh.vertices.size() / 2].y();
@@ -43,7 +43,7 @@ TEST(UntangleMesh, TwoSidesThatPassedThroughEachOtherLieNearEachOther) {
 TEST(UntangleMesh, WhatLiesApartFromTheFaultsStays) {
   TriangleMesh mesh = crossed(0.012f);
   const TriangleMesh before = mesh;
-  ASSERT_TRUE(untangle(mesh, sheet().vertices, RunContext()));
+  ASSERT_TRUE(untangle(mesh, sheet().vertices, {}, RunContext()));
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3f& p = before.vertices[v];
     if (std::hypot(p.x(), p.z()) < 0.02f) continue;
@@ -55,40 +55,51 @@ TEST(UntangleMesh, AMeshThatDoesNotPassThroughItselfStaysAsItIs) {
   TriangleMesh mesh = sheet();
   std::vector<Vec3f> start = mesh.vertices;
   for (Vec3f& p : start) p *= 1.1f;
-  ASSERT_TRUE(untangle(mesh, start, RunContext()));
+  ASSERT_TRUE(untangle(mesh, start, {}, RunContext()));
   EXPECT_EQ(mesh.vertices, sheet().vertices);
 }
 
-TEST(UntangleMesh, WhatPassedThroughItselfBeforeStays) {
+TEST(UntangleMesh, WhatPassedThroughItselfBeforeIsAveragedApart) {
   TriangleMesh mesh = crossed(0.012f);
-  const TriangleMesh before = mesh;
-  ASSERT_TRUE(untangle(mesh, before.vertices, RunContext()));
-  EXPECT_EQ(mesh.vertices, before.vertices);
+  ASSERT_TRUE(untangle(mesh, crossed(0.012f).vertices, {}, RunContext()));
+  EXPECT_EQ(faults(mesh), 0);
+}
+
+TEST(UntangleMesh, OnlyLooseVerticesMoveWhereTheySuffice) {
+  TriangleMesh mesh = sheet();
+  std::vector<std::uint8_t> upper(mesh.vertices.size(), 0);
+  std::fill_n(upper.begin(), upper.size() / 2, std::uint8_t(1));
+  for (std::size_t v = 0; v < upper.size() / 2; ++v) {
+    Vec3f& p = mesh.vertices[v];
+    if (std::hypot(p.x(), p.z()) < 0.012f) p.y() = -1.5f * p.y();
+  }
+  ASSERT_GT(faults(mesh), 0);
+  ASSERT_TRUE(untangle(mesh, sheet().vertices, upper, RunContext()));
+  EXPECT_EQ(faults(mesh), 0);
+  for (std::size_t v = upper.size() / 2; v < upper.size(); ++v)
+    ASSERT_EQ(mesh.vertices[v], sheet().vertices[v]) << v;
+}
+
+TEST(UntangleMesh, TheOthersMoveWhereLooseVerticesDoNotSuffice) {
+  TriangleMesh mesh = crossed(0.012f);
+  std::vector<std::uint8_t> loose(mesh.vertices.size(), 0);
+  loose[400] = 1;  // on the ring where both sides pass through each other
+  ASSERT_TRUE(untangle(mesh, crossed(0.012f).vertices, loose, RunContext()));
+  EXPECT_EQ(faults(mesh), 0);
 }
 
 TEST(UntangleMesh, IsTheSameForAnyNumberOfThreadsAndCanBeCancelled) {
   TriangleMesh one = crossed(0.012f), many = one, none = one;
   set_thread_count(1);
-  ASSERT_TRUE(untangle(one, sheet().vertices, RunContext()));
+  ASSERT_TRUE(untangle(one, sheet().vertices, {}, RunContext()));
   set_thread_count(0);
-  ASSERT_TRUE(untangle(many, sheet().vertices, RunContext()));
+  ASSERT_TRUE(untangle(many, sheet().vertices, {}, RunContext()));
   EXPECT_EQ(one.vertices, many.vertices);
   const RunContext context;
   context.cancel();
-  const auto result = untangle(none, sheet().vertices, context);
+  const auto result = untangle(none, sheet().vertices, {}, context);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
-}
-
-TEST(FadingAround, FallsByAsMuchWithEachRingOfNeighbours) {
-  const TriangleMesh mesh = sheet();
-  std::vector<std::uint8_t> marked(mesh.vertices.size(), 0);
-  marked[0] = 1;  // the middle of a disc of rings
-  const std::vector<float> share = fading_around(MeshNeighbours(mesh), marked, 4);
-  for (int ring = 0; ring <= 6; ++ring) {
-    const std::size_t v = ring == 0 ? 0 : std::size_t(1 + (ring - 1) * testing::kSheetAround);
-    EXPECT_FLOAT_EQ(share[v], std::max(0.0f, 1.0f - 0.25f * float(ring))) << ring;
-  }
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/hull/resting_poses.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
-#include <turnscan/geometry/mesh/self_intersections.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 #include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
 
@@ -15,9 +14,7 @@ constexpr int kMaxContacts = 4;        ///< solutions, each with the contacts of
 constexpr int kMaxRests = 3;           ///< vertices placed on the platter
 constexpr float kTouchCells = 1.0f;    ///< lower heights above the platter count as contact
 constexpr double kBalanceCells = 3.0;  ///< from the contact below the centre of mass
-/// Rings around intersections with other surface.
-constexpr int kRingsDrawnBack[] = {6, 12, 24, 48};
-constexpr float kNearCells = 1.5f;  ///< the rim is within observed space
+constexpr float kNearCells = 1.5f;     ///< the rim is within observed space
 using Marks = std::vector<std::uint8_t>;
 
 class PlateCloser {
@@ -33,20 +30,10 @@ class PlateCloser {
   Result<> run() {
     if (!any_marked(loose_)) return {};
     const std::vector<Vec3f> start = mesh_.vertices;
-    const Marks before = self_intersections(mesh_, triangles_at(mesh_, loose_)).triangles;
     TURNSCAN_TRY(bend(start));
     for (int n = 0; n < kMaxRests && rest_on_platter(); ++n) TURNSCAN_TRY(bend(start));
     for (const std::uint32_t v : rests_) loose_[v] = 1;
-    bool crosses = true;
-    for (const int rings : kRingsDrawnBack) {
-      TURNSCAN_TRY(context_.check());
-      if (crosses) crosses = draw_back_around(start, rings, before);
-    }
-    for (const float share : {0.5f, 0.0f}) {
-      TURNSCAN_TRY(context_.check());
-      if (crosses) crosses = draw_back(start, share, before);
-    }
-    TURNSCAN_TRY(smooth_crossings(mesh_, loose_, context_));
+    TURNSCAN_TRY(untangle(mesh_, start, loose_, context_));
     mesh_.normals.clear();
     return {};
   }
@@ -140,30 +127,6 @@ class PlateCloser {
       return float(i - 1) / float(steps);
     }
     return 1.0f;
-  }
-
-  Marks crossing(const Marks& before) const {
-    return crossing_vertices(mesh_, before, triangles_at(mesh_, loose_));
-  }
-
-  /// Moves vertices that cross surface back to their start, and those in this many rings around
-  /// them less, decreasing with distance. Returns whether there were any.
-  bool draw_back_around(const std::vector<Vec3f>& start, int rings, const Marks& before) {
-    const Marks from = crossing(before);
-    if (!any_marked(from)) return false;
-    const std::vector<float> back = fading_around(neighbours_, from, rings);
-    for (std::size_t v = 0; v < back.size(); ++v)
-      if (loose_[v]) mesh_.vertices[v] += back[v] * (start[v] - mesh_.vertices[v]);
-    return true;
-  }
-
-  /// Scales the displacement of components that cross surface by a share. Returns whether there
-  /// were any.
-  bool draw_back(const std::vector<Vec3f>& start, float share, const Marks& before) {
-    const Marks back = loose_around(crossing(before));
-    for (std::size_t v = 0; v < back.size(); ++v)
-      if (back[v]) mesh_.vertices[v] = start[v] + share * (mesh_.vertices[v] - start[v]);
-    return any_marked(back);
   }
 
   TriangleMesh& mesh_;

@@ -107,7 +107,7 @@ class VolumetricReconstruction {
         }));
       // Behind thin parts a filtering sensor mixes the depths of both sides.
       TURNSCAN_TRY(timed("untangle", [&] {
-        return mesh_refinement::untangle(fitted.mesh, even.vertices, context_);
+        return mesh_refinement::untangle(fitted.mesh, even.vertices, {}, context_);
       }));
       if (options_.fit && !input_.measured_only) {
         TURNSCAN_TRY(timed("handles", [&] { return cut_unseen_handles(fitted); }));
