@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kGrain = 4096;
 /// Conjugate gradients stop at this residual, relative to that before anything has moved, or after
 /// this many rounds.
-constexpr double kTolerance = 1e-3;
+constexpr double kTolerance = 1e-2;
 constexpr int kMaxRounds = 80;
 /// Weight with which each vertex stays in place, in measurements: hardly measured surface is also
 /// known from the volume.
@@ -177,27 +177,25 @@ class OffsetSolver {
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) { bend_[v] *= known[v]; });
   }
 
-  /// Adds the effect on the vertices of a force on the bend at each vertex, here each neighbour's
-  /// part of it.
-  void add_forces(const std::vector<Columns>& part, std::vector<Columns>& to) const {
-    parallel_for(to.size(), kGrain, [&](std::size_t v) {
-      Columns sum = to[v] + neighbours_.count(v) * part[v];
-      neighbours_.each(v, [&](std::uint32_t u) { sum -= part[u]; });
-      to[v] = sum;
-    });
+  /// Effect on a vertex of a force on the bend at each vertex, here each neighbour's part of it.
+  Columns force(const std::vector<Columns>& part, std::size_t v) const {
+    Columns sum = neighbours_.count(v) * part[v];
+    neighbours_.each(v, [&](std::uint32_t u) { sum -= part[u]; });
+    return sum;
   }
 
-  /// The left side of the normal equations.
-  void apply(const std::vector<Columns>& delta, std::vector<Columns>& part,
-             std::vector<Columns>& out) const {
-    parallel_for(delta.size(), kGrain, [&](std::size_t v) {
-      const float count = std::max(1.0f, neighbours_.count(v));
-      Columns sum = Columns::Zero();
-      neighbours_.each(v, [&](std::uint32_t u) { sum += delta[u]; });
-      part[v] = (stiff_[v] + coupling_[v]) / count * (delta[v] - sum / count);
-      out[v] = (measured_.support[v] + kStay) * delta[v];
-    });
-    add_forces(part, out);
+  /// The part of each neighbour in the force on the bend at a vertex that offsets cause.
+  Columns part_of(const std::vector<Columns>& delta, std::size_t v) const {
+    const float count = std::max(1.0f, neighbours_.count(v));
+    Columns sum = Columns::Zero();
+    neighbours_.each(v, [&](std::uint32_t u) { sum += delta[u]; });
+    return (stiff_[v] + coupling_[v]) / count * (delta[v] - sum / count);
+  }
+
+  /// The left side of the normal equations at a vertex.
+  Columns image_of(const std::vector<Columns>& delta, const std::vector<Columns>& part,
+                   std::size_t v) const {
+    return (measured_.support[v] + kStay) * delta[v] + force(part, v);
   }
 
   std::vector<float> diagonal() const {
@@ -214,27 +212,28 @@ class OffsetSolver {
   /// What the right side lacks at the given offsets. Bends are of the first column.
   std::vector<Columns> residual(const std::vector<Columns>& right,
                                 const std::vector<Columns>& delta) const {
-    std::vector<Columns> part(right.size()), image(right.size()), out = right;
-    apply(delta, part, image);
+    std::vector<Columns> part(right.size()), out(right.size());
     parallel_for(out.size(), kGrain, [&](std::size_t v) {
-      part[v].setZero();
-      part[v][0] = stiff_[v] * bend_[v] / std::max(1.0f, neighbours_.count(v));
+      part[v] = part_of(delta, v);
+      part[v][0] -= stiff_[v] * bend_[v] / std::max(1.0f, neighbours_.count(v));
     });
-    add_forces(part, out);
-    parallel_for(out.size(), kGrain, [&](std::size_t v) { out[v] -= image[v]; });
+    parallel_for(out.size(), kGrain,
+                 [&](std::size_t v) { out[v] = right[v] - image_of(delta, part, v); });
     return out;
   }
 
   using Sums = Eigen::Array4d;
 
-  /// Sums in chunks whose length does not depend on the number of threads.
-  static Sums dot(const std::vector<Columns>& a, const std::vector<Columns>& b) {
+  /// Sum of what a function gives for each vertex, in chunks whose length does not depend on the
+  /// number of threads.
+  template <class Term>
+  static Sums sum_of(std::size_t count, const Term& term) {
     Sums sum = Sums::Zero();
     for (const Sums& part :
-         parallel_chunks<Sums>(a.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+         parallel_chunks<Sums>(count, kGrain, [&](std::size_t begin, std::size_t end) {
            Sums of_chunk = Sums::Zero();
            for (std::size_t v = begin; v < end; ++v)
-             of_chunk += (a[v] * b[v]).template cast<double>();
+             of_chunk += Columns(term(v)).template cast<double>();
            return of_chunk;
          }))
       sum += part;
@@ -248,24 +247,26 @@ class OffsetSolver {
     const std::size_t n = right.size();
     const std::vector<float> scale = diagonal();
     std::vector<Columns> left = residual(right, delta), direction(n, Columns::Zero()), part(n),
-                         image(n), scaled(n);
+                         image(n);
     Sums before = Sums::Ones();
-    for (int round = 0; round < kMaxRounds; ++round) {
-      parallel_for(n, kGrain, [&](std::size_t v) { scaled[v] = left[v] / scale[v]; });
-      const Sums now = dot(left, scaled);
-      if (!goal_) goal_ = kTolerance * kTolerance * now;
-      const auto going = (now > *goal_).eval();
-      if (!going.any()) break;
+    Sums now = sum_of(n, [&](std::size_t v) { return left[v].square() / scale[v]; });
+    if (!goal_) goal_ = kTolerance * kTolerance * now;
+    for (int round = 0; round < kMaxRounds && (now > *goal_).any(); ++round) {
       const Columns turn = (round == 0 ? Sums(Sums::Zero()) : ratio(now, before)).cast<float>();
       parallel_for(n, kGrain,
-                   [&](std::size_t v) { direction[v] = scaled[v] + turn * direction[v]; });
-      apply(direction, part, image);
-      const Columns along = going.select(ratio(now, dot(direction, image)), 0.0).cast<float>();
-      parallel_for(n, kGrain, [&](std::size_t v) {
+                   [&](std::size_t v) { direction[v] = left[v] / scale[v] + turn * direction[v]; });
+      parallel_for(n, kGrain, [&](std::size_t v) { part[v] = part_of(direction, v); });
+      const Sums bent = sum_of(n, [&](std::size_t v) {
+        image[v] = image_of(direction, part, v);
+        return direction[v] * image[v];
+      });
+      const Columns along = (now > *goal_).select(ratio(now, bent), 0.0).cast<float>();
+      before = now;
+      now = sum_of(n, [&](std::size_t v) {
         delta[v] += along * direction[v];
         left[v] -= along * image[v];
+        return left[v].square() / scale[v];
       });
-      before = now;
     }
   }
 
