@@ -2,6 +2,8 @@
 #include <cmath>
 #include <turnscan/core/angles.hpp>
 #include <turnscan/core/median.hpp>
+#include <turnscan/core/parallel.hpp>
+#include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/finishing/hole_patches.hpp>
@@ -267,11 +269,15 @@ class Judge {
 
   /// Share of the surface, estimated from a subset of the vertices.
   double share_thinner_than(double thickness_m, const quality::ThinWalls& walls) const {
-    const std::size_t stride = std::max<std::size_t>(1, areas_.size() / kThicknessSamples);
+    const std::vector<std::size_t> chosen = evenly_spread(areas_.size(), kThicknessSamples);
+    std::vector<std::uint8_t> is_thin(chosen.size());
+    parallel_for(chosen.size(), 64, [&](std::size_t i) {
+      is_thin[i] = walls.thinner_than(thickness_m, chosen[i]) ? 1 : 0;
+    });
     double thin = 0.0, all = 0.0;
-    for (std::size_t v = 0; v < areas_.size(); v += stride) {
-      all += areas_[v];
-      if (walls.thinner_than(thickness_m, v)) thin += areas_[v];
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      all += areas_[chosen[i]];
+      if (is_thin[i]) thin += areas_[chosen[i]];
     }
     return all > 0.0 ? thin / all : 0.0;
   }
