@@ -73,7 +73,7 @@ Result<> export_model(const ModelData& data, const ExportOptions& options, const
   }
   if (fewer) {
     context.begin_phase("reduce", 0);
-    TURNSCAN_ASSIGN(mesh, simplify(mesh, {options.triangles, 1e30, false, {}}));
+    TURNSCAN_ASSIGN(mesh, simplify(mesh, {.triangles = options.triangles}));
   }
   TURNSCAN_TRY(context.check());
   context.begin_phase("write", 0);

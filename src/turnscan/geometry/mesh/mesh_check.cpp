@@ -18,7 +18,10 @@ constexpr std::size_t kMaxCavities = 64;
 
 class MeshChecker {
  public:
-  explicit MeshChecker(const TriangleMesh& mesh) : mesh_(mesh), use_(mesh.triangles.size(), 0) {}
+  explicit MeshChecker(const TriangleMesh& mesh)
+      : mesh_(mesh), use_(mesh.triangles.size(), 0), broken_(mesh.vertices.size(), 0) {}
+
+  const std::vector<std::uint8_t>& broken() const { return broken_; }
 
   MeshReport run() {
     report_.vertices = mesh_.vertices.size();
@@ -70,6 +73,9 @@ class MeshChecker {
     DisjointSets fans(3 * mesh_.triangles.size());  // of corners
     for (std::size_t e = 0; e < edges.edge_count(); ++e) {
       const auto around = edges.half_edges(e);
+      if (around.size() != 2)
+        for (const std::uint32_t h : {around[0], next_in_triangle(around[0])})
+          broken_[origin(h)] = 1;
       report_.boundary_edges += around.size() == 1;
       report_.non_manifold_edges += around.size() > 2;
       report_.misoriented_edges += around.size() == 2 && origin(around[0]) == origin(around[1]);
@@ -80,6 +86,7 @@ class MeshChecker {
       if (!use_[h / 3] || fans.root(h) != h) continue;
       std::uint8_t& count = fans_at[origin(h)];
       report_.non_manifold_vertices += count == 1;
+      if (count > 0) broken_[origin(h)] = 1;
       count = std::min<std::uint8_t>(2, count + 1);
     }
   }
@@ -146,7 +153,8 @@ class MeshChecker {
 
   const TriangleMesh& mesh_;
   MeshReport report_;
-  std::vector<std::uint8_t> use_;  // per triangle: used for edges
+  std::vector<std::uint8_t> use_;     // per triangle: used for edges
+  std::vector<std::uint8_t> broken_;  // per vertex
   std::vector<std::uint32_t> piece_;
   std::vector<double> volumes_;
   std::vector<Vec3d> anchors_;  // a vertex of each piece
@@ -154,7 +162,12 @@ class MeshChecker {
 
 }  // namespace
 
-MeshReport check_mesh(const TriangleMesh& mesh) { return MeshChecker(mesh).run(); }
+MeshReport check_mesh(const TriangleMesh& mesh, std::vector<std::uint8_t>* broken) {
+  MeshChecker checker(mesh);
+  const MeshReport report = checker.run();
+  if (broken) *broken = checker.broken();
+  return report;
+}
 
 MeshReport check_surface(const TriangleMesh& mesh, const RunContext& context) {
   MeshReport report = check_mesh(mesh);

@@ -7,6 +7,7 @@
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <vector>
 
 namespace turnscan {
 
@@ -46,7 +47,9 @@ struct MeshReport {
 };
 
 /// Never fails, whatever the mesh contains. O(triangles); about 0.3 s for a million triangles.
-MeshReport check_mesh(const TriangleMesh& mesh);
+/// broken, if given, gets one flag per vertex: those of edges that have not just two triangles, and
+/// those whose triangles form more than one fan.
+MeshReport check_mesh(const TriangleMesh& mesh, std::vector<std::uint8_t>* broken = nullptr);
 /// With crossing_edges (self_intersections()): about 2 s for a million triangles.
 /// Once the context is cancelled the edges are not counted.
 MeshReport check_surface(const TriangleMesh& mesh, const RunContext& context = RunContext());

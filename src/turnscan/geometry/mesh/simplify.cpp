@@ -12,18 +12,21 @@ namespace {
 
 constexpr int kTries = 5;
 
-TriangleMesh collapse(const TriangleMesh& mesh, const std::vector<std::uint8_t>& keep,
-                      std::size_t triangles, float relative_error) {
+TriangleMesh collapse(const TriangleMesh& mesh, const SimplifyGoal& goal, std::size_t triangles) {
+  const double extent = double(
+      meshopt_simplifyScale(mesh.vertices.data()->data(), mesh.vertices.size(), sizeof(Vec3f)));
+  const double relative = extent > 0.0 ? goal.max_error_m / extent : 0.0;
   std::vector<unsigned int> from, kept;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
-    auto& side = !keep.empty() && keep[i] != 0 ? kept : from;
+    auto& side = !goal.keep.empty() && goal.keep[i] != 0 ? kept : from;
     side.insert(side.end(), t.begin(), t.end());
   }
   std::vector<unsigned int> to(from.size());
   const std::size_t target = 3 * triangles - std::min(3 * triangles, kept.size());
   to.resize(meshopt_simplify(to.data(), from.data(), from.size(), mesh.vertices.data()->data(),
-                             mesh.vertices.size(), sizeof(Vec3f), target, relative_error,
+                             mesh.vertices.size(), sizeof(Vec3f), target,
+                             static_cast<float>(std::min(relative, 1e10)),
                              kept.empty() ? 0 : meshopt_SimplifyLockBorder, nullptr));
   to.insert(to.end(), kept.begin(), kept.end());
   TriangleMesh out = mesh;
@@ -51,26 +54,22 @@ Result<TriangleMesh> mend(const TriangleMesh& mesh, std::size_t pieces) {
 
 }  // namespace
 
+Result<TriangleMesh> collapse_edges(const TriangleMesh& mesh, const SimplifyGoal& goal) {
+  TURNSCAN_TRY(validate_mesh(mesh));
+  if (mesh.triangles.size() <= goal.triangles) return mesh;
+  return collapse(mesh, goal, goal.triangles);
+}
+
 Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal) {
   TURNSCAN_TRY(validate_mesh(mesh));
   const std::size_t n = mesh.triangles.size();
   std::size_t target = std::min(goal.triangles, n);
   if (mesh.empty() || target == n) return mesh;
-  bool watertight = true;
-  std::size_t pieces = 1;
-  if (!goal.one_solid) {
-    const MeshReport report = check_mesh(mesh);
-    watertight = report.watertight();
-    pieces = std::size_t(report.components);
-  }
-  const double extent = double(
-      meshopt_simplifyScale(mesh.vertices.data()->data(), mesh.vertices.size(), sizeof(Vec3f)));
-  const double relative = extent > 0.0 ? goal.max_error_m / extent : 0.0;
-  const auto error = static_cast<float>(std::min(relative, 1e10));
+  const MeshReport report = check_mesh(mesh);
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    TriangleMesh out = collapse(mesh, goal.keep, target, error);
-    if (!out.empty() && (!watertight || check_mesh(out).watertight())) return out;
-    if (auto mended = mend(out, pieces); mended) return *mended;
+    TriangleMesh out = collapse(mesh, goal, target);
+    if (!out.empty() && (!report.watertight() || check_mesh(out).watertight())) return out;
+    if (auto mended = mend(out, std::size_t(report.components)); mended) return *mended;
     // Collapses are made in order of error: fewer of them stop before the harmful one.
     target = std::max(target, out.triangles.size());
     target += (n - target) / 2;

@@ -11,7 +11,6 @@ namespace turnscan {
 struct SimplifyGoal {
   std::size_t triangles = 0;  ///< target number, unless the error would be larger
   double max_error_m = 1e30;  ///< maximum distance as estimated by the quadrics
-  bool one_solid = false;     ///< known to be one watertight piece, which is not checked again
   /// One flag per triangle that is to stay unchanged; empty: none.
   std::vector<std::uint8_t> keep = {};
 };
@@ -23,5 +22,9 @@ struct SimplifyGoal {
 /// at the input. Other meshes keep their borders.
 /// Fails with kFormat as validate_mesh does. Deterministic.
 Result<TriangleMesh> simplify(const TriangleMesh& mesh, const SimplifyGoal& goal);
+
+/// The same without the check: where edges fold together the result is not a manifold, and pieces
+/// that shrink to nothing are lost.
+Result<TriangleMesh> collapse_edges(const TriangleMesh& mesh, const SimplifyGoal& goal);
 
 }  // namespace turnscan

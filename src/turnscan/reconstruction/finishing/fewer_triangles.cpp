@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <map>
 #include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_measure.hpp>
-#include <turnscan/geometry/search/closest_point.hpp>
 #include <turnscan/reconstruction/finishing/fewer_triangles.hpp>
 #include <turnscan/reconstruction/mesh_refinement/simplify_within.hpp>
 #include <turnscan/reconstruction/stage_timer.hpp>
@@ -58,38 +60,54 @@ Bound bound_for(const ReconstructOptions& options, std::optional<std::size_t> wa
   return worth_of(object, voxel_m);
 }
 
-/// The triangles around vertices where different kinds of evidence meet, one flag each.
-std::vector<std::uint8_t> evidence_borders(const ObjectResult& object) {
-  const auto& triangles = object.mesh.triangles;
-  std::vector<std::uint8_t> kinds(object.mesh.vertices.size(), 0), out(triangles.size(), 0);
+/// Per vertex: a bit for each kind of evidence around it.
+std::vector<std::uint8_t> kinds_of_evidence(const ObjectResult& object) {
+  std::vector<std::uint8_t> out(object.mesh.vertices.size(), 0);
   for (std::size_t t = 0; t < object.evidence.size(); ++t)
-    for (const std::uint32_t v : triangles[t])
-      kinds[v] |= std::uint8_t(1u << unsigned(object.evidence[t]));
-  for (std::size_t t = 0; t < out.size(); ++t)
-    out[t] = std::any_of(triangles[t].begin(), triangles[t].end(),
-                         [&](std::uint32_t v) { return (kinds[v] & (kinds[v] - 1)) != 0; });
+    for (const std::uint32_t v : object.mesh.triangles[t])
+      out[v] |= std::uint8_t(1u << unsigned(object.evidence[t]));
   return out;
 }
 
-Result<TriangleMesh> simplified(const ObjectResult& object, const Bound& bound,
-                                const RunContext& context) {
-  if (!(bound.error_m > 0.0)) return simplify(object.mesh, {bound.triangles});
-  return mesh_refinement::simplify_within(
-      object.mesh, {bound.triangles, bound.error_m, false, evidence_borders(object)},
-      bound.farthest_m, context);
+/// The triangles around vertices where different kinds of evidence meet, one flag each.
+std::vector<std::uint8_t> evidence_borders(const ObjectResult& object) {
+  const auto& triangles = object.mesh.triangles;
+  const std::vector<std::uint8_t> kinds = kinds_of_evidence(object);
+  std::vector<std::uint8_t> out(triangles.size(), 0);
+  for (std::size_t t = 0; t < out.size(); ++t)
+    out[t] = std::any_of(triangles[t].begin(), triangles[t].end(),
+                         [&](std::uint32_t v) { return std::popcount(kinds[v]) > 1; });
+  return out;
+}
+
+using mesh_refinement::SimplifiedMesh;
+
+Result<SimplifiedMesh> simplified(const ObjectResult& object, const Bound& bound,
+                                  const RunContext& context) {
+  if (bound.error_m > 0.0)
+    return mesh_refinement::simplify_within(
+        object.mesh, {bound.triangles, bound.error_m, evidence_borders(object)}, bound.farthest_m,
+        context);
+  TURNSCAN_ASSIGN(TriangleMesh fewer, simplify(object.mesh, {bound.triangles}));
+  SimplifiedMesh out{std::move(fewer), std::vector<MeshDistance::Hit>(object.mesh.vertices.size())};
+  const MeshDistance distance(out.mesh);
+  TURNSCAN_TRY(parallel_for(out.nearest.size(), 256, context, [&](std::size_t v) {
+    out.nearest[v] = distance.closest(object.mesh.vertices[v].cast<double>());
+  }));
+  return out;
 }
 
 /// For each vertex of a simplified mesh the vertex of the full mesh at its position.
-std::vector<std::uint32_t> places_in(const TriangleMesh& full, const MeshDistance& on_full,
-                                     const TriangleMesh& fewer) {
-  std::vector<std::uint32_t> out(fewer.vertices.size());
-  parallel_for(out.size(), 256, [&](std::size_t v) {
-    const Vec3f& p = fewer.vertices[v];
-    const auto& corners = full.triangles[on_full.closest(p.cast<double>()).triangle];
-    out[v] = *std::min_element(corners.begin(), corners.end(), [&](auto a, auto b) {
-      return (full.vertices[a] - p).squaredNorm() < (full.vertices[b] - p).squaredNorm();
-    });
-  });
+std::vector<std::uint32_t> places_in(const TriangleMesh& full, const TriangleMesh& fewer) {
+  using Place = std::array<float, 3>;
+  const auto place = [](const Vec3f& p) { return Place{p.x(), p.y(), p.z()}; };
+  std::vector<std::pair<Place, std::uint32_t>> sorted;
+  for (std::uint32_t v = 0; v < full.vertices.size(); ++v)
+    sorted.emplace_back(place(full.vertices[v]), v);
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::uint32_t> out;
+  for (const Vec3f& p : fewer.vertices)
+    out.push_back(std::lower_bound(sorted.begin(), sorted.end(), std::pair(place(p), 0u))->second);
   return out;
 }
 
@@ -127,20 +145,16 @@ struct QualitySum {
 
 /// Each vertex of the full mesh contributes to the corners of the triangle that contains it, unless
 /// exactly one of them was measured.
-std::vector<VertexQuality> carry_quality(const ObjectResult& full, const TriangleMesh& fewer,
+std::vector<VertexQuality> carry_quality(const ObjectResult& full, const SimplifiedMesh& fewer,
                                          const std::vector<std::uint32_t>& place) {
-  const MeshDistance on_fewer(fewer);
-  std::vector<MeshDistance::Hit> hits(full.quality.size());
-  parallel_for(hits.size(), 256, [&](std::size_t v) {
-    hits[v] = on_fewer.closest(full.mesh.vertices[v].cast<double>());
-  });
   const std::vector<std::uint8_t> measured = measured_vertices(full);
   const std::vector<double> areas = vertex_areas(full.mesh);
-  std::vector<QualitySum> sums(fewer.vertices.size());
-  for (std::size_t v = 0; v < hits.size(); ++v) {
-    const Vec3d shares = barycentric(fewer, hits[v].triangle, hits[v].point);
+  std::vector<QualitySum> sums(fewer.mesh.vertices.size());
+  for (std::size_t v = 0; v < fewer.nearest.size(); ++v) {
+    const MeshDistance::Hit& hit = fewer.nearest[v];
+    const Vec3d shares = barycentric(fewer.mesh, hit.triangle, hit.point);
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t corner = fewer.triangles[hits[v].triangle][k];
+      const std::uint32_t corner = fewer.mesh.triangles[hit.triangle][k];
       if (measured[place[corner]] == measured[v])
         sums[corner].add(full.quality[v], areas[v] * shares[Eigen::Index(k)]);
     }
@@ -151,21 +165,40 @@ std::vector<VertexQuality> carry_quality(const ObjectResult& full, const Triangl
   return out;
 }
 
-std::vector<Evidence> carry_evidence(const ObjectResult& full, const MeshDistance& on_full,
-                                     const TriangleMesh& fewer) {
-  std::vector<Evidence> out(fewer.triangles.size());
-  parallel_for(out.size(), 256, [&](std::size_t t) {
-    Vec3d middle = Vec3d::Zero();
-    for (const std::uint32_t v : fewer.triangles[t]) middle += fewer.vertices[v].cast<double>();
-    out[t] = full.evidence[on_full.closest(middle / 3.0).triangle];
-  });
+/// The kind of evidence that surrounds all corners; of a triangle between several kinds that of the
+/// full mesh's, or, where that is gone, the one that promises least.
+std::vector<Evidence> carry_evidence(const ObjectResult& full, const TriangleMesh& fewer,
+                                     const std::vector<std::uint32_t>& place) {
+  const std::vector<std::uint8_t> kinds = kinds_of_evidence(full);
+  const auto common = [&](const auto& t) {
+    return unsigned(kinds[t[0]] & kinds[t[1]] & kinds[t[2]]);
+  };
+  const auto turned = [](std::array<std::uint32_t, 3> t) {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return t;
+  };
+  std::map<std::array<std::uint32_t, 3>, Evidence> between;
+  for (std::size_t t = 0; t < full.evidence.size(); ++t)
+    if (std::popcount(common(full.mesh.triangles[t])) > 1)
+      between.emplace(turned(full.mesh.triangles[t]), full.evidence[t]);
+  std::vector<Evidence> out;
+  for (const auto& [a, b, c] : fewer.triangles) {
+    const std::array<std::uint32_t, 3> t{place[a], place[b], place[c]};
+    const unsigned at = common(t);
+    const auto same = std::popcount(at) > 1 ? between.find(turned(t)) : between.end();
+    if (same != between.end())
+      out.push_back(same->second);
+    else if (std::popcount(at) == 1)
+      out.push_back(Evidence(std::countr_zero(at)));
+    else
+      out.push_back(Evidence::kInvented);
+  }
   return out;
 }
 
 /// Moves the mesh into the object, with its attributes.
-void take(TriangleMesh fewer, ObjectResult& object) {
-  const MeshDistance on_full(object.mesh);
-  const std::vector<std::uint32_t> place = places_in(object.mesh, on_full, fewer);
+void take(SimplifiedMesh fewer, ObjectResult& object) {
+  const std::vector<std::uint32_t> place = places_in(object.mesh, fewer.mesh);
   if (!object.quality.empty()) object.quality = carry_quality(object, fewer, place);
   if (!object.confidence.empty()) {
     std::vector<float> confidence;
@@ -173,8 +206,8 @@ void take(TriangleMesh fewer, ObjectResult& object) {
     object.confidence = std::move(confidence);
   }
   const bool known = !object.evidence.empty();
-  if (known) object.evidence = carry_evidence(object, on_full, fewer);
-  object.mesh = std::move(fewer);
+  if (known) object.evidence = carry_evidence(object, fewer.mesh, place);
+  object.mesh = std::move(fewer.mesh);
   object.check = check_mesh(object.mesh);
   if (!known) return;
   object.invented_area_m2 = 0.0;
@@ -185,8 +218,8 @@ void take(TriangleMesh fewer, ObjectResult& object) {
 
 Result<> reduce_object(const Bound& bound, ObjectResult& object, const RunContext& context) {
   if (object.mesh.triangles.size() <= std::max<std::size_t>(4, bound.triangles)) return {};
-  TURNSCAN_ASSIGN(TriangleMesh fewer, simplified(object, bound, context));
-  if (fewer.triangles.size() < object.mesh.triangles.size()) take(std::move(fewer), object);
+  TURNSCAN_ASSIGN(SimplifiedMesh fewer, simplified(object, bound, context));
+  if (fewer.mesh.triangles.size() < object.mesh.triangles.size()) take(std::move(fewer), object);
   return {};
 }
 
