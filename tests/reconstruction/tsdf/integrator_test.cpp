@@ -127,18 +127,6 @@ TEST(Integrator, WhatTwoOfAThousandViewsMeasuredIsNoSurface) {
   EXPECT_EQ(among_others.free, alone.free);  // but what they saw past is free
 }
 
-TEST(TypicalWeight, GrowsWithTheFramesThoughMixedPixelsFillMoreAndMoreSamples) {
-  const auto of = [](std::size_t frames) {
-    std::vector<float> weights(100, 0.3f * float(frames));
-    weights.resize(100 + frames, 1.0f);  // a stray measurement each
-    return typical_weight(weights);
-  };
-  EXPECT_EQ(of(40), 12.0f);
-  EXPECT_EQ(of(2000), 600.0f);
-  std::vector<float> none;
-  EXPECT_EQ(typical_weight(none), 0.0f);
-}
-
 TEST(Integrator, IsCoarseWhereFewBricksAreAllowed) {
   Integrator integrator(volume_scale());
   ASSERT_TRUE(integrator.integrate(walls(), {}));

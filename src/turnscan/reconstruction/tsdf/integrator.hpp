@@ -26,12 +26,6 @@ struct EarlierViews {
   float weight = 1.0f;
 };
 
-/// A sample counts as observed if the ratios of its weights to these add up to at least 1.
-struct LeastWeights {
-  float surface = 0.0f;  ///< of measured distances
-  float free = 0.0f;     ///< of views that saw past it
-};
-
 /// Sums over views in bricks of 8^3 samples at fixed positions of the table frame; the platter, y =
 /// 0, is halfway between the lowest layer of bricks 0 and the next. A brick gets sums once a view
 /// measures a surface within the truncation distance of one of its samples; for other bricks only
@@ -75,10 +69,10 @@ class Integrator {
     float free = 0.0f;
   };
   BrickEvidence evidence(const GridCoords& brick) const;
-  LeastWeights least_weights() const;
+  float least_weight() const;
   Volume coarse_volume(int factor, const GridCoords& low, const GridCoords& high) const;
   void fill_coarse_brick(Volume& volume, std::size_t b, const GridCoords& first, int factor,
-                         const LeastWeights& least) const;
+                         float least) const;
 
   Vec3d sample_position(const GridCoords& brick) const;
   std::array<float, 3> first_sample(const GridCoords& brick) const;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/tsdf/volume_samples.hpp>
 
@@ -33,17 +32,6 @@ double below_platters(std::span<const Platter> platters, const Vec3d& p) {
   double deepest = -1e30;
   for (const Platter& platter : platters) deepest = std::max(deepest, -platter.above(p));
   return deepest;
-}
-
-float typical_weight(std::vector<float>& weights) {
-  std::sort(weights.begin(), weights.end());
-  const double half = 0.5 * std::accumulate(weights.begin(), weights.end(), 0.0);
-  double sum = 0.0;
-  for (const float w : weights) {
-    sum += double(w);
-    if (sum >= half) return w;
-  }
-  return 0.0f;
 }
 
 void Volume::set_bricks(const GridCoords& size) {

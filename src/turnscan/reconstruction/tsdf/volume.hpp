@@ -67,12 +67,6 @@ class Volume {
   std::vector<std::size_t> allocated_bricks() const;
 };
 
-/// Typical weight of a measured sample, from the weights of samples beside a surface: half of their
-/// sum is in weights of at least that. Mixed pixels of many frames give ever more samples a small
-/// weight, so that a median over the samples would not grow with the frames. Sorts the weights; 0
-/// if there are none.
-float typical_weight(std::vector<float>& weights);
-
 /// Averages known samples with their known neighbours, by their weights. Fails with kCancelled, and
 /// then leaves the volume as it was after the last complete round.
 Result<> smooth(Volume& volume, int rounds, const RunContext& context);

@@ -11,15 +11,11 @@ namespace {
 /// Weight of a view that saw past a sample, in measured distances: passing through is certain,
 /// being behind a surface is not.
 constexpr float kFreeWeight = 0.5f;
-constexpr float kMinWeight = 0.3f;         // below, a sample counts as not observed
-constexpr float kMinWeightShare = 0.008f;  // the same relative to the typical weight
-/// This weight suffices, however many views saw other parts: surface deep in a hollow that few of
-/// many frames saw is as certain as with those few alone.
-constexpr float kEnoughWeight = 1.0f;
-/// Surface also requires a share of all views: mixed pixels cause false surface, and with many
-/// frames enough of them agree by chance. False free space does not arise: that of a pixel ends at
-/// the nearest depth around it.
-constexpr float kEnoughShareOfViews = 1.0f / 375.0f;
+/// Measurements from which on a sample is near a surface: that many, or one for so many views,
+/// since mixed pixels cause false surface, and with many frames enough of them agree by chance. One
+/// view that saw past a sample makes it free: the free space of a pixel ends at the nearest depth
+/// around it.
+constexpr float kMinWeight = 0.3f, kViewsPerWeight = 300.0f;
 
 /// Position of a brick's sample, the first coordinate fastest, in its sums.
 std::size_t place_in_parts(std::size_t sample) {
@@ -27,35 +23,21 @@ std::size_t place_in_parts(std::size_t sample) {
   return (i >> 2 | j >> 2 << 1 | k >> 2 << 2) << 6 | (i & 3) | (j & 3) << 2 | (k & 3) << 4;
 }
 
-float weight_beside_surface(const std::vector<const BrickSums*>& all, float cell) {
-  std::vector<float> weights;
-  for (const BrickSums* sums : all) {
-    for (std::size_t sample = 0; sample < kBrickSamples; sample += 7) {
-      const std::size_t at = place_in_parts(sample), i = at % kPartSamples;
-      const PartSums& part = sums->part[at / kPartSamples];
-      const float w = part.weight[i];
-      if (w > 0.0f && std::abs(part.distance[i]) < w * cell) weights.push_back(w);
-    }
-  }
-  return typical_weight(weights);
-}
-
 /// The samples of a brick.
 struct BrickDistances {
   std::vector<float> value = std::vector<float>(kBrickSamples);
   std::vector<float> weight = std::vector<float>(kBrickSamples);
 
-  /// From sums; all_free: number of views that saw past the whole brick. Returns whether all
-  /// samples are certainly free.
-  bool set(const BrickSums& sums, float all_free, float truncation, const LeastWeights& least) {
-    const float free_counts = least.surface / least.free;
+  /// From sums; all_free: number of views that saw past the whole brick; least: weight of
+  /// measurements from which on there is surface. Returns whether all samples are certainly free.
+  bool set(const BrickSums& sums, float all_free, float truncation, float least) {
     bool free_throughout = true;
     for (std::size_t sample = 0; sample < kBrickSamples; ++sample) {
       const std::size_t at = place_in_parts(sample), i = at % kPartSamples;
       const PartSums& part = sums.part[at / kPartSamples];
       const float free = kFreeWeight * (part.free[i] + all_free);
       const float w = part.weight[i] + free;
-      const bool known = part.weight[i] + free * free_counts >= least.surface;
+      const bool known = free > 0.0f || part.weight[i] >= least;
       value[sample] = known ? (part.distance[i] + free * truncation) / w : truncation;
       weight[sample] = known ? w : 0.0f;
       free_throughout &= known && value[sample] > 0.7f * truncation;
@@ -105,18 +87,7 @@ Integrator::BrickEvidence Integrator::evidence(const GridCoords& brick) const {
   return {g.sums[in_group].get(), g.free[in_group]};
 }
 
-LeastWeights Integrator::least_weights() const {
-  std::vector<const BrickSums*> all;
-  for (const BrickGroup& group : groups_) {
-    for (const auto& sums : group.sums) {
-      if (sums) all.push_back(sums.get());
-    }
-  }
-  const float share =
-      std::max(kMinWeightShare * weight_beside_surface(all, float(scale_.cell_m)), kMinWeight);
-  return {std::min(share, std::max(kEnoughWeight, kEnoughShareOfViews * views_)),
-          std::min(share, kEnoughWeight)};
-}
+float Integrator::least_weight() const { return std::max(kMinWeight, views_ / kViewsPerWeight); }
 
 Result<Volume> Integrator::extract_volume(const Box& box, const RunContext& context) const {
   Volume volume;
@@ -132,14 +103,14 @@ Result<Volume> Integrator::extract_volume(const Box& box, const RunContext& cont
   volume.origin_m = sample_position(first);
   volume.set_bricks(size);
   const auto truncation = float(scale_.truncation_m);
-  const LeastWeights least = least_weights();
+  const float least = least_weight();
   BrickDistances brick;
   for (std::size_t b = 0; b < volume.brick_count(); ++b) {
     if (b % 1024 == 0) TURNSCAN_TRY(context.check());
     const GridCoords at = volume.bricks.coords(b);
     const BrickEvidence own = evidence({at[0] + first[0], at[1] + first[1], at[2] + first[2]});
     if (own.sums == nullptr) {
-      volume.uniform[b] = kFreeWeight * own.free >= least.free ? 1.0f : 0.0f;
+      volume.uniform[b] = own.free > 0.0f ? 1.0f : 0.0f;
     } else if (brick.set(*own.sums, own.free, truncation, least)) {
       volume.uniform[b] = 1.0f;
     } else if (std::any_of(brick.weight.begin(), brick.weight.end(),
@@ -189,7 +160,7 @@ Volume Integrator::coarse_volume(int factor, const GridCoords& low, const GridCo
   volume.origin_m =
       sample_position({first[0] * factor, first[1] * factor, first[2] * factor}).array() + middle;
   volume.set_bricks(size);
-  const LeastWeights least = least_weights();
+  const float least = least_weight();
   for (std::size_t b = 0; b < volume.brick_count(); ++b) {
     GridCoords at = volume.bricks.coords(b);
     for (std::size_t a = 0; a < 3; ++a) at[a] = (at[a] + first[a]) * factor;
@@ -200,7 +171,7 @@ Volume Integrator::coarse_volume(int factor, const GridCoords& low, const GridCo
 
 /// Fills a brick of a coarse volume from the factor^3 bricks that begin at `first`.
 void Integrator::fill_coarse_brick(Volume& volume, std::size_t b, const GridCoords& first,
-                                   int factor, const LeastWeights& least) const {
+                                   int factor, float least) const {
   const auto truncation = float(scale_.truncation_m);
   CoarseSums sums;
   BrickDistances fine;
@@ -212,14 +183,14 @@ void Integrator::fill_coarse_brick(Volume& volume, std::size_t b, const GridCoor
     free = std::min(free, own.free);
     if (own.sums != nullptr)
       fine.set(*own.sums, own.free, truncation, least);
-    else if (kFreeWeight * own.free >= least.free)
+    else if (own.free > 0.0f)
       fine.set_free(truncation);
     else
       continue;
     sums.add(fine, offset, factor);
   }
   if (sums.value.empty()) return;
-  if (kFreeWeight * free >= least.free &&
+  if (free > 0.0f &&
       std::all_of(sums.value.begin(), sums.value.end(), [](float v) { return v > 0.0f; })) {
     volume.uniform[b] = 1.0f;
     return;
