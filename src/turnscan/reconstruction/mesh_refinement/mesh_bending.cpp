@@ -168,11 +168,7 @@ class OffsetSolver {
   /// Unmeasured parts of the mesh have cliffs and webs: their bends must not move the measured
   /// surface beside them.
   void forget_unseen_bends() {
-    std::vector<float> known(bend_.size());
-    parallel_for(known.size(), kGrain, [&](std::size_t v) {
-      known[v] = std::min(1.0f, measured_.support[v] / (kUnseenShare * typical_));
-    });
-    known = neighbours_.largest(std::move(known), kGapRings);
+    std::vector<float> known = neighbours_.largest(measured_shares(measured_.support), kGapRings);
     known = neighbours_.least(std::move(known), kGapRings + 1);
     parallel_for(bend_.size(), kGrain, [&](std::size_t v) { bend_[v] *= known[v]; });
   }
@@ -292,11 +288,17 @@ float typical_support(const std::vector<float>& support) {
   return float(median(some, 1.0));
 }
 
-std::vector<std::uint8_t> unseen_vertices(const std::vector<float>& support) {
-  const float least = kUnseenShare * typical_support(support);
-  std::vector<std::uint8_t> out(support.size());
+std::vector<float> measured_shares(const std::vector<float>& support) {
+  const float enough = kMeasuredShare * typical_support(support);
+  std::vector<float> out(support.size());
   std::transform(support.begin(), support.end(), out.begin(),
-                 [&](float s) { return std::uint8_t(s < least); });
+                 [&](float s) { return std::min(1.0f, s / enough); });
+  return out;
+}
+
+std::vector<std::uint8_t> unseen_vertices(const std::vector<float>& support) {
+  std::vector<std::uint8_t> out;
+  for (const float share : measured_shares(support)) out.push_back(share < 1.0f ? 1 : 0);
   return out;
 }
 

@@ -10,13 +10,9 @@ namespace turnscan::mesh_refinement {
 void fair(TriangleMesh& mesh, const MeshNeighbours& neighbours, const std::vector<float>& support,
           const MeshFitScale& scale) {
   constexpr int kRounds = 80;
-  constexpr float kMeasured = 0.05f;  // share of the typical support from which on vertices are
-                                      // fixed
   auto& p = mesh.vertices;
-  const float typical = typical_support(support), reach = float(scale.fair_m);
-  std::vector<float> hold(p.size(), 1.0f);
-  for (std::uint32_t v = 0; v < p.size(); ++v)
-    hold[v] = std::min(1.0f, support[v] / (kMeasured * typical));
+  const float reach = float(scale.fair_m);
+  const std::vector<float> hold = measured_shares(support);
   std::vector<std::uint32_t> loose;
   for (std::uint32_t v = 0; v < p.size(); ++v) {
     if (hold[v] < 1.0f && !below_floor(p[v], scale)) loose.push_back(v);
@@ -37,9 +33,7 @@ void fair(TriangleMesh& mesh, const MeshNeighbours& neighbours, const std::vecto
 void straighten_walls(TriangleMesh& mesh, const MeshNeighbours& neighbours,
                       const std::vector<float>& support, const MeshFitScale& scale) {
   constexpr int kRounds = 20;
-  constexpr float kMeasured = 0.1f;  // share of the typical support from which on vertices are
-                                     // fixed
-  const float typical = typical_support(support);
+  const std::vector<float> hold = measured_shares(support);
   const auto& p = mesh.vertices;
   // On the base but not at its outline.
   std::vector<std::uint8_t> inner(p.size(), 0);
@@ -63,7 +57,7 @@ void straighten_walls(TriangleMesh& mesh, const MeshNeighbours& neighbours,
         sum += to[u];
         count += 1.0f;
       });
-      const float loose = 0.5f * (1.0f - std::min(1.0f, support[v] / (kMeasured * typical)));
+      const float loose = 0.5f * (1.0f - hold[v]);
       next[k] = count > 0.0f ? Vec3f(to[v] + loose * (sum / count - to[v])) : to[v];
       next[k].y() = p[v].y();
     });

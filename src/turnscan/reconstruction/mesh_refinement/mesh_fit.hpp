@@ -43,9 +43,11 @@ struct MeshFit {
 
 /// Median of the non-zero supports.
 float typical_support(const std::vector<float>& support);
-/// Share of the typical support below which a vertex counts as unseen.
-inline constexpr float kUnseenShare = 0.02f;
-/// The unseen vertices, one flag per vertex.
+/// Share of the typical support from which on a vertex was measured.
+inline constexpr float kMeasuredShare = 0.02f;
+/// How far each vertex was measured: its support over that share of the typical one, at most 1.
+std::vector<float> measured_shares(const std::vector<float>& support);
+/// Those with a share below 1, one flag per vertex.
 std::vector<std::uint8_t> unseen_vertices(const std::vector<float>& support);
 
 /// Minimises over offsets along the normals the robust (Tukey) squares of the distances between the

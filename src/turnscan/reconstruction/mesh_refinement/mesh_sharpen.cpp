@@ -18,9 +18,7 @@ constexpr std::size_t kMaxDrawnBytes = std::size_t(64) << 20;
 constexpr float kApart_m = 0.06f;
 /// Steps are averaged over the neighbourhood, without which rims would become jagged.
 constexpr int kRings = 8;
-constexpr float kMin_m = 1e-4f;     // shorter steps are mostly residual noise of the surface
-constexpr float kTrusted = 0.005f;  // relative to the typical support; vertices with less move less
-constexpr float kUnseen = 1e-4f;    // vertices with less do not move
+constexpr float kMin_m = 1e-4f;  // shorter steps are mostly residual noise of the surface
 
 void put(views::DepthView& view, std::size_t at, float z) {
   const float raw = std::round((z - view.bias_m) / view.unit_m);
@@ -107,15 +105,14 @@ std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<
     blend(step, neighbours, Vec3f(Vec3f::Zero()));
     blend(weight, neighbours, 0.0f);
   }
+  const std::vector<float> trust = measured_shares(weight);
   parallel_for(n, 1024, [&](std::size_t v) {
     const float length = weight[v] > 0.0f ? step[v].norm() / weight[v] : 0.0f;
-    if (!(weight[v] > kUnseen * typical) || !(length > kMin_m) ||
-        below_floor(mesh.vertices[v], scale)) {
+    if (!(length > kMin_m) || below_floor(mesh.vertices[v], scale)) {
       step[v].setZero();
       return;
     }
-    const float trust = std::min(1.0f, weight[v] / (kTrusted * typical));
-    step[v] *= trust * std::min(float(2.0 * scale.limit_m), length - kMin_m) / step[v].norm();
+    step[v] *= trust[v] * std::min(float(2.0 * scale.limit_m), length - kMin_m) / step[v].norm();
   });
   return step;
 }

@@ -59,7 +59,7 @@ void measure_evidence(VolumetricPiece& piece, const VolumeScale& scale) {
       piece.evidence[i] = Evidence::kBase;
       piece.base_area_m2 += area;
     } else if (std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
-                 return piece.confidence[v] < mesh_refinement::kUnseenShare;
+                 return piece.confidence[v] < mesh_refinement::kMeasuredShare;
                })) {
       const bool flat = on_platter(p, t, scale);
       piece.evidence[i] = flat ? Evidence::kBase : Evidence::kInvented;
