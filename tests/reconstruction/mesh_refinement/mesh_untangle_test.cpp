@@ -60,8 +60,8 @@ TEST(UntangleMesh, AMeshThatDoesNotPassThroughItselfStaysAsItIs) {
 }
 
 TEST(UntangleMesh, WhatPassedThroughItselfBeforeIsAveragedApart) {
-  TriangleMesh mesh = crossed(0.012f);
-  ASSERT_TRUE(untangle(mesh, crossed(0.012f).vertices, {}, RunContext()));
+  TriangleMesh mesh = crossed(0.003f);
+  ASSERT_TRUE(untangle(mesh, crossed(0.003f).vertices, {}, RunContext()));
   EXPECT_EQ(faults(mesh), 0);
 }
 
