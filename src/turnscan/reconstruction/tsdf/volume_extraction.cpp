@@ -11,11 +11,10 @@ namespace {
 /// Weight of a view that saw past a sample, in measured distances: passing through is certain,
 /// being behind a surface is not.
 constexpr float kFreeWeight = 0.5f;
-/// Measurements from which on a sample is near a surface: that many, or one for so many views,
-/// since mixed pixels cause false surface, and with many frames enough of them agree by chance. One
-/// view that saw past a sample makes it free: the free space of a pixel ends at the nearest depth
-/// around it.
-constexpr float kMinWeight = 0.3f, kViewsPerWeight = 300.0f;
+/// Weight of measurements from which on a sample is near a surface; where mixed pixels of many
+/// views meet by chance, more. One view that saw past a sample makes it free: the free space of a
+/// pixel ends at the nearest depth around it.
+constexpr float kMinWeight = 0.3f;
 
 /// Position of a brick's sample, the first coordinate fastest, in its sums.
 std::size_t place_in_parts(std::size_t sample) {
@@ -87,7 +86,10 @@ Integrator::BrickEvidence Integrator::evidence(const GridCoords& brick) const {
   return {g.sums[in_group].get(), g.free[in_group]};
 }
 
-float Integrator::least_weight() const { return std::max(kMinWeight, views_ / kViewsPerWeight); }
+/// A sum of mixed pixels whose depths are random varies by the root of their number.
+float Integrator::least_weight() const {
+  return std::max(kMinWeight, scale_.edge_weight * std::sqrt(views_));
+}
 
 Result<Volume> Integrator::extract_volume(const Box& box, const RunContext& context) const {
   Volume volume;
