@@ -95,12 +95,20 @@ void bind_camera(py::module_& module) {
   using Intrinsics = CameraIntrinsics;
   py::class_<Intrinsics>(module, "Intrinsics")
       .def(py::init([](int width, int height, double fx, double fy, double cx, double cy,
-                       const std::vector<double>& distortion) {
+                       const py::sequence& distortion) {
              Intrinsics made{width, height, fx, fy, cx, cy, {}};
-             if (distortion.size() != 5 && distortion.size() != made.distortion.size())
-               throw py::value_error("distortion: it has " + std::to_string(distortion.size()) +
+             // Counted before they are copied: an array may have thousands of millions.
+             const std::size_t count = py::len(distortion);
+             if (count != 5 && count != made.distortion.size())
+               throw py::value_error("distortion: it has " + std::to_string(count) +
                                      " numbers, not 5 (k1 k2 p1 p2 k3) or 8 (and k4 k5 k6)");
-             std::copy(distortion.begin(), distortion.end(), made.distortion.begin());
+             std::vector<double> numbers;
+             try {
+               numbers = distortion.cast<std::vector<double>>();
+             } catch (const py::cast_error&) {
+               throw py::type_error("distortion: it is not a list of numbers");
+             }
+             std::copy(numbers.begin(), numbers.end(), made.distortion.begin());
              unwrap(made.check());
              return made;
            }),

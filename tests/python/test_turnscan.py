@@ -183,6 +183,17 @@ class Reconstructing(InAFolder):
         for axis in ((0, 0, 0), (math.nan, 0, 1), (math.inf, 0, 0)):
             self.refused("axis", turnscan.Turntable, axis, (0, 0, 0))
 
+    def test_a_distortion_is_counted_before_it_is_copied(self):
+        def made(distortion):
+            return turnscan.Intrinsics(8, 6, 10, 10, 4, 3, distortion)
+
+        for given in ([0.1, 0, 0, 0, 0], np.array([0.1, 0, 0, 0, 0], np.float32), (0.1, 0, 0, 0, 0, 0, 0, 1)):
+            self.assertEqual(made(given).distortion, [float(k) for k in given])
+        self.refused("not 5", made, np.broadcast_to(np.float64(0), 1 << 50))
+        for wrong in ("12345", [None] * 5, np.broadcast_to(0.0, (5, 1 << 30))):
+            self.refused("list of numbers", made, wrong)
+        self.refused("distortion", made, None)
+
     def test_what_is_no_recording_is_refused(self):
         self.refused("no options", turnscan.options, "nonsense")
         for wrong in (None, (), 0, object()):
