@@ -18,7 +18,7 @@ Result<TriangleMesh> color_by_error(const TriangleMesh& mesh, const TriangleMesh
   if (reference.empty()) {
     return fail(ErrorCode::kTooFewPoints, "error map: the reference has no triangles; check it");
   }
-  const MeshDistance distance(reference);
+  TURNSCAN_ASSIGN(const MeshDistance distance, MeshDistance::create(reference, context));
   TriangleMesh colored = mesh;
   colored.colors.assign(mesh.vertices.size(), Rgb());
   parallel_for(mesh.vertices.size(), 1024, [&](std::size_t v) {

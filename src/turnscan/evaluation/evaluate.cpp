@@ -81,7 +81,7 @@ struct Nearest {
 
 Result<Nearest> nearest_on(const TriangleMesh& surface, const std::vector<Vec3f>& samples,
                            const char* phase, Border border, const RunContext& context) {
-  const MeshDistance distance(surface);
+  TURNSCAN_ASSIGN(const MeshDistance distance, MeshDistance::create(surface, context));
   const std::size_t n = samples.size();
   Nearest nearest;
   nearest.distance.resize(n);
@@ -166,7 +166,7 @@ Result<std::vector<double>> signed_distances(const std::vector<Vec3f>& samples,
                                              const std::vector<std::uint8_t>& counts,
                                              const TriangleMesh& reference,
                                              const RunContext& context) {
-  const PseudoNormals normals(reference);
+  TURNSCAN_ASSIGN(const PseudoNormals normals, PseudoNormals::create(reference, context));
   std::vector<double> all(samples.size());
   TURNSCAN_TRY(parallel_for(samples.size(), kChunk, context, [&](std::size_t i) {
     const Vec3d way = samples[i].cast<double>() - nearest.points[i];

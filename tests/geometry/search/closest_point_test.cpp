@@ -117,5 +117,18 @@ TEST(ClosestPoint, AMovedDistanceStillAnswers) {
   EXPECT_EQ(second.closest(Vec3d(0.5, 0.5, 3.0)).distance, 2.0);
 }
 
+TEST(MeshDistance, IsNotBuiltWhenCancelled) {
+  const TriangleMesh mesh = sphere(1.0, 3);
+  RunContext context;
+  const auto built = MeshDistance::create(mesh, context);
+  ASSERT_TRUE(built);
+  EXPECT_EQ(built->closest(Vec3d(2, 0.1, 0.2)).triangle,
+            MeshDistance(mesh).closest(Vec3d(2, 0.1, 0.2)).triangle);
+  context.cancel();
+  const auto none = MeshDistance::create(mesh, context);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kCancelled);
+}
+
 }  // namespace
 }  // namespace turnscan

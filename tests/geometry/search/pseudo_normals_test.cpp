@@ -60,5 +60,14 @@ TEST(PseudoNormals, AreZeroWhereFacesHaveNoArea) {
   EXPECT_EQ(PseudoNormals(flat).at({0.5, 0, 0}, 0), Vec3d::Zero());
 }
 
+TEST(PseudoNormals, AreNotMadeWhenCancelled) {
+  RunContext context;
+  EXPECT_TRUE(PseudoNormals::create(test::tetrahedron(), context));
+  context.cancel();
+  const auto none = PseudoNormals::create(test::tetrahedron(), context);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::kCancelled);
+}
+
 }  // namespace
 }  // namespace turnscan

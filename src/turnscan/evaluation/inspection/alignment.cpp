@@ -37,7 +37,7 @@ Result<Alignment> align_to(std::span<const Vec3f> points, const TriangleMesh& re
   Alignment out;
   TURNSCAN_ASSIGN(out.icp, icp(points, reference, Pose::Identity(), options, context));
   const Pose& pose = out.icp.T_target_source;
-  const MeshDistance distance(reference);
+  TURNSCAN_ASSIGN(const MeshDistance distance, MeshDistance::create(reference, context));
   out.rms_before_m = rms_to(distance, points, Pose::Identity());
   out.rms_after_m = rms_to(distance, points, pose);
   if (out.rms_after_m > out.rms_before_m) {

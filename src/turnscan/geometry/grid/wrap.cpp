@@ -11,7 +11,7 @@ Result<TriangleMesh> wrap(const TriangleMesh& mesh, double cell_m, const RunCont
     return fail(ErrorCode::kTooFewPoints, "wrap: the mesh has no triangle; check the mesh");
   if (!(cell_m > 0.0))
     return fail(ErrorCode::kInvalidOption, "wrap: cells of {} m; give more than 0", cell_m);
-  const MeshDistance soup(mesh);
+  TURNSCAN_ASSIGN(const MeshDistance soup, MeshDistance::create(mesh, context));
   TURNSCAN_ASSIGN(const BrickGrid field, wrap_field(soup, mesh, cell_m, context));
   TURNSCAN_ASSIGN(TriangleMesh wrapped, isosurface(field, MarchingCells::kTetrahedra, context));
   wrapped.name = mesh.name;

@@ -18,16 +18,21 @@ constexpr std::size_t kMaxCavities = 64;
 
 class MeshChecker {
  public:
-  explicit MeshChecker(const TriangleMesh& mesh)
-      : mesh_(mesh), use_(mesh.triangles.size(), 0), broken_(mesh.vertices.size(), 0) {}
+  MeshChecker(const TriangleMesh& mesh, const RunContext& context)
+      : mesh_(mesh),
+        context_(context),
+        use_(mesh.triangles.size(), 0),
+        broken_(mesh.vertices.size(), 0) {}
 
   const std::vector<std::uint8_t>& broken() const { return broken_; }
 
+  /// Incomplete once the context is cancelled.
   MeshReport run() {
     report_.vertices = mesh_.vertices.size();
     report_.triangles = mesh_.triangles.size();
     classify_triangles();
-    count_edges_and_fans();
+    if (!context_.cancelled()) count_edges_and_fans();
+    if (context_.cancelled()) return report_;
     measure_pieces();
     report_.closed = !mesh_.triangles.empty() && report_.edges > 0 && report_.boundary_edges == 0;
     report_.manifold = report_.invalid_triangles == 0 && report_.repeated_vertices == 0 &&
@@ -71,7 +76,7 @@ class MeshChecker {
     const EdgeTable edges(mesh_.triangles, mesh_.vertices.size(), use_);
     report_.edges = edges.edge_count();
     DisjointSets fans(3 * mesh_.triangles.size());  // of corners
-    for (std::size_t e = 0; e < edges.edge_count(); ++e) {
+    for (std::size_t e = 0; e < edges.edge_count() && !context_.cancelled(); ++e) {
       const auto around = edges.half_edges(e);
       if (around.size() != 2)
         for (const std::uint32_t h : {around[0], next_in_triangle(around[0])})
@@ -82,7 +87,7 @@ class MeshChecker {
       for (std::size_t i = 1; i < around.size(); ++i) join_corners(fans, around[0], around[i]);
     }
     std::vector<std::uint8_t> fans_at(mesh_.vertices.size(), 0);
-    for (std::uint32_t h = 0; h < 3 * use_.size(); ++h) {
+    for (std::uint32_t h = 0; h < 3 * use_.size() && !context_.cancelled(); ++h) {
       if (!use_[h / 3] || fans.root(h) != h) continue;
       std::uint8_t& count = fans_at[origin(h)];
       report_.non_manifold_vertices += count == 1;
@@ -129,7 +134,7 @@ class MeshChecker {
 
   bool pieces_face_outward() const {
     std::size_t cavities = 0;
-    for (std::uint32_t piece = 0; piece < volumes_.size(); ++piece) {
+    for (std::uint32_t piece = 0; piece < volumes_.size() && !context_.cancelled(); ++piece) {
       if (volumes_[piece] > 0.0) continue;
       if (++cavities > kMaxCavities || !(volumes_[piece] < 0.0)) return false;
       if (!inside_a_solid_piece(anchors_[piece])) return false;
@@ -152,6 +157,7 @@ class MeshChecker {
   }
 
   const TriangleMesh& mesh_;
+  const RunContext& context_;
   MeshReport report_;
   std::vector<std::uint8_t> use_;     // per triangle: used for edges
   std::vector<std::uint8_t> broken_;  // per vertex
@@ -163,14 +169,15 @@ class MeshChecker {
 }  // namespace
 
 MeshReport check_mesh(const TriangleMesh& mesh, std::vector<std::uint8_t>* broken) {
-  MeshChecker checker(mesh);
+  const RunContext context;
+  MeshChecker checker(mesh, context);
   const MeshReport report = checker.run();
   if (broken) *broken = checker.broken();
   return report;
 }
 
 MeshReport check_surface(const TriangleMesh& mesh, const RunContext& context) {
-  MeshReport report = check_mesh(mesh);
+  MeshReport report = MeshChecker(mesh, context).run();
   report.crossing_edges = self_intersections(mesh, {}, context).edges;
   return report;
 }

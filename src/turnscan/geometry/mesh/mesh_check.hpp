@@ -51,7 +51,7 @@ struct MeshReport {
 /// those whose triangles form more than one fan.
 MeshReport check_mesh(const TriangleMesh& mesh, std::vector<std::uint8_t>* broken = nullptr);
 /// With crossing_edges (self_intersections()): about 2 s for a million triangles.
-/// Once the context is cancelled the edges are not counted.
+/// Once the context is cancelled the report is incomplete.
 MeshReport check_surface(const TriangleMesh& mesh, const RunContext& context = RunContext());
 
 }  // namespace turnscan

@@ -28,8 +28,8 @@ double spanned(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 class SelfIntersectionSearch {
  public:
   SelfIntersectionSearch(const TriangleMesh& mesh, std::span<const std::uint8_t> moved,
-                         const RunContext& context)
-      : mesh_(mesh), moved_(moved), context_(context), tree_(mesh) {}
+                         MeshDistance tree, const RunContext& context)
+      : mesh_(mesh), moved_(moved), context_(context), tree_(std::move(tree)) {}
 
   SelfIntersections run() {
     SelfIntersections out;
@@ -120,7 +120,9 @@ class SelfIntersectionSearch {
 
 SelfIntersections self_intersections(const TriangleMesh& mesh, std::span<const std::uint8_t> moved,
                                      const RunContext& context) {
-  return SelfIntersectionSearch(mesh, moved, context).run();
+  auto tree = MeshDistance::create(mesh, context);
+  if (!tree) return {0, std::vector<std::uint8_t>(mesh.triangles.size(), 0)};
+  return SelfIntersectionSearch(mesh, moved, std::move(*tree), context).run();
 }
 
 }  // namespace turnscan

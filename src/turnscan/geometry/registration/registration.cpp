@@ -200,7 +200,7 @@ Result<IcpResult> icp(std::span<const Vec3f> source, std::span<const Vec3f> targ
 Result<IcpResult> icp(std::span<const Vec3f> source, const TriangleMesh& target, const Pose& start,
                       const IcpOptions& options, const RunContext& context) {
   TURNSCAN_TRY(validate_mesh(target, "alignment target"));
-  const MeshDistance distance(target);
+  TURNSCAN_ASSIGN(const MeshDistance distance, MeshDistance::create(target, context));
   const IcpLookup lookup = [&](const Vec3d& p, double max_distance) -> IcpTarget {
     const auto hit = distance.closest(p, max_distance);
     if (hit.triangle == MeshDistance::kNone) return {};

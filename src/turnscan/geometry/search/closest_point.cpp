@@ -105,16 +105,19 @@ struct MeshDistance::Impl {
   std::vector<std::uint32_t> ids;  // position -> triangle of the mesh
   double rounding_m = 0.0;         // upper bound of the rounding error of a distance
 
-  explicit Impl(const TriangleMesh& mesh);
+  Impl(const TriangleMesh& mesh, const RunContext& context);
   FloatBox build_node(std::uint32_t node, std::vector<Item>& items, std::size_t begin,
                       std::size_t end);
   FloatBox set_child(std::uint32_t node, int side, std::uint32_t child, std::vector<Item>& items,
                      std::size_t begin, std::size_t end);
   void query(const Vec3d& p, double max_distance, Hit& best) const;
-  const TriangleMesh* source = nullptr;  // while building
+  const TriangleMesh* source = nullptr;  // this and the context while building
+  const RunContext* context = nullptr;
 };
 
-MeshDistance::Impl::Impl(const TriangleMesh& mesh) : source(&mesh) {
+/// Useless once the context is cancelled.
+MeshDistance::Impl::Impl(const TriangleMesh& mesh, const RunContext& run)
+    : source(&mesh), context(&run) {
   std::vector<Item> items;
   items.reserve(mesh.triangles.size());
   float largest = 0.0f;
@@ -131,6 +134,7 @@ MeshDistance::Impl::Impl(const TriangleMesh& mesh) : source(&mesh) {
   if (items.empty()) return;
   nodes.resize(std::max<std::size_t>(1, nodes_below(items.size())));
   build_node(0, items, 0, items.size());
+  if (run.cancelled()) return;
   corners.reserve(items.size());
   ids.reserve(items.size());
   for (const Item& item : items) {
@@ -139,10 +143,12 @@ MeshDistance::Impl::Impl(const TriangleMesh& mesh) : source(&mesh) {
     ids.push_back(item.triangle);
   }
   source = nullptr;
+  context = nullptr;
 }
 
 FloatBox MeshDistance::Impl::build_node(std::uint32_t node, std::vector<Item>& items,
                                         std::size_t begin, std::size_t end) {
+  if (end - begin > kBuiltAtOnce && context->cancelled()) return {};
   FloatBox centroids;
   for (std::size_t i = begin; i < end; ++i) centroids.add(items[i].centroid);
   int axis = 0;
@@ -221,7 +227,14 @@ void MeshDistance::Impl::query(const Vec3d& p, double max_distance, Hit& best) c
   }
 }
 
-MeshDistance::MeshDistance(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
+MeshDistance::MeshDistance(const TriangleMesh& mesh)
+    : impl_(std::make_unique<Impl>(mesh, RunContext())) {}
+MeshDistance::MeshDistance(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Result<MeshDistance> MeshDistance::create(const TriangleMesh& mesh, const RunContext& context) {
+  auto impl = std::make_unique<Impl>(mesh, context);
+  TURNSCAN_TRY(context.check());
+  return MeshDistance(std::move(impl));
+}
 MeshDistance::MeshDistance(MeshDistance&&) noexcept = default;
 MeshDistance& MeshDistance::operator=(MeshDistance&&) noexcept = default;
 MeshDistance::~MeshDistance() = default;

@@ -28,30 +28,40 @@ double angle_between(const Vec3d& a, const Vec3d& b) {
 
 }  // namespace
 
-PseudoNormals::PseudoNormals(const TriangleMesh& mesh)
+PseudoNormals::PseudoNormals(const TriangleMesh& mesh) : PseudoNormals(mesh, RunContext()) {}
+
+Result<PseudoNormals> PseudoNormals::create(const TriangleMesh& mesh, const RunContext& context) {
+  PseudoNormals normals(mesh, context);
+  TURNSCAN_TRY(context.check());
+  return normals;
+}
+
+/// Useless once the context is cancelled, as is set_edges().
+PseudoNormals::PseudoNormals(const TriangleMesh& mesh, const RunContext& context)
     : vertices_(mesh.vertices),
       triangles_(mesh.triangles),
       of_face_(mesh.triangles.size()),
       of_vertex_(mesh.vertices.size()),
       of_edge_(mesh.triangles.size()) {
   std::vector<std::array<double, 3>> angles(triangles_.size());
-  parallel_for(triangles_.size(), 4096, [&](std::size_t t) {
+  (void)parallel_for(triangles_.size(), 4096, context, [&](std::size_t t) {
     std::array<Vec3d, 3> p;
     for (std::size_t c = 0; c < 3; ++c) p[c] = vertices_[triangles_[t][c]].cast<double>();
     of_face_[t] = unit_or_zero((p[1] - p[0]).cross(p[2] - p[0])).cast<float>();
     for (std::size_t c = 0; c < 3; ++c)
       angles[t][c] = angle_between(p[(c + 1) % 3] - p[c], p[(c + 2) % 3] - p[c]);
   });
+  if (context.cancelled()) return;
   std::vector<Vec3d> sums(vertices_.size(), Vec3d::Zero());
   for (std::size_t t = 0; t < triangles_.size(); ++t)
     for (std::size_t c = 0; c < 3; ++c)
       sums[triangles_[t][c]] += angles[t][c] * of_face_[t].cast<double>();
-  parallel_for(sums.size(), 4096,
-               [&](std::size_t v) { of_vertex_[v] = unit_or_zero(sums[v]).cast<float>(); });
-  set_edges();
+  (void)parallel_for(sums.size(), 4096, context,
+                     [&](std::size_t v) { of_vertex_[v] = unit_or_zero(sums[v]).cast<float>(); });
+  if (!context.cancelled()) set_edges(context);
 }
 
-void PseudoNormals::set_edges() {
+void PseudoNormals::set_edges(const RunContext& context) {
   // Bucketed by their lower vertex, so that only those of one vertex remain to be sorted.
   std::vector<std::uint32_t> end(vertices_.size() + 1, 0);
   const auto for_each_edge = [&](const auto& take) {
@@ -65,7 +75,7 @@ void PseudoNormals::set_edges() {
   for (std::size_t v = 0; v + 1 < end.size(); ++v) end[v + 1] += end[v];
   std::vector<SidedEdge> edges(3 * triangles_.size());
   for_each_edge([&](std::uint32_t low, const SidedEdge& edge) { edges[end[low]++] = edge; });
-  parallel_for(vertices_.size(), 4096, [&](std::size_t v) {
+  (void)parallel_for(vertices_.size(), 4096, context, [&](std::size_t v) {
     const auto of_vertex =
         std::span(edges).subspan(v > 0 ? end[v - 1] : 0).first(end[v] - (v > 0 ? end[v - 1] : 0));
     std::sort(of_vertex.begin(), of_vertex.end());

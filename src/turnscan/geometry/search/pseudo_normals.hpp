@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <vector>
 
@@ -17,6 +19,8 @@ class PseudoNormals {
  public:
   /// Copies what it needs. Triangles must reference existing vertices.
   explicit PseudoNormals(const TriangleMesh& mesh);
+  /// The same, for meshes of any size. Fails with kCancelled soon after the context is.
+  static Result<PseudoNormals> create(const TriangleMesh& mesh, const RunContext& context);
 
   /// Unit normal at a point on a triangle, as MeshDistance::closest() finds it: of the vertex or
   /// edge of the triangle that contains the point (to within 1 nm), else of the face. Zero if the
@@ -24,7 +28,8 @@ class PseudoNormals {
   Vec3d at(const Vec3d& point, std::uint32_t triangle) const;
 
  private:
-  void set_edges();
+  PseudoNormals(const TriangleMesh& mesh, const RunContext& context);
+  void set_edges(const RunContext& context);
 
   std::vector<Vec3f> vertices_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;

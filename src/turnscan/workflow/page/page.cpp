@@ -139,8 +139,8 @@ Result<ReportPage> make_page(const PageInput& given, const RunContext& context) 
 Result<> compare_with(PageInput& input, const TriangleMesh& reference,
                       const EvaluateOptions& options, const RunContext& context) {
   TURNSCAN_TRY(validate_mesh(reference, "reference"));
-  const MeshDistance distance(reference);
-  const PseudoNormals normals(reference);
+  TURNSCAN_ASSIGN(const MeshDistance distance, MeshDistance::create(reference, context));
+  TURNSCAN_ASSIGN(const PseudoNormals normals, PseudoNormals::create(reference, context));
   for (PageObject& object : input.objects) {
     TURNSCAN_ASSIGN(object.evaluation, evaluate(object.mesh, reference, options, {}, context));
     const Pose& T_reference_mesh = object.evaluation->T_reference_mesh;
