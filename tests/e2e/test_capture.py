@@ -273,7 +273,7 @@ class Scan(harness.TestCase):
         self.assertIn("moved", " ".join(again["notes"]))
 
     def scan_killed_and_resumed(self, device, at, *more):
-        """The lines of frames.csv at the kill."""
+        """The lines of frames.csv at the kill; None if all was recorded by then."""
         args = ("scan", "--device", device, "-o", "doll.3mf", "--report", "r.json", "--no-wait",
                 "--min-free", "0", *more, *self.FAST)
         process = start(*args, cwd=self.dir, env={"XDG_STATE_HOME": str(self.dir / "state")})
@@ -284,6 +284,9 @@ class Scan(harness.TestCase):
         process.kill()
         process.communicate()
         lines = len(frames_of(self.dir / "doll.recording"))
+        # On a busy machine the turn may be over before the kill.
+        if description(self.dir / "doll.recording")["complete"]:
+            return None
         self.ok(*args, "--resume", "doll.recording")
         return lines
 
@@ -326,14 +329,18 @@ class Scan(harness.TestCase):
                 *self.FAST)
         whole = self.f_score("whole.3mf")
         chance = random.Random(2)
+        late = 0
         for kill in range(RESUMES):
             at = chance.randrange(2, 170)
             with self.subTest(kill=kill, at=at):
-                self.scan_killed_and_resumed(device, at)
-                self.assertAlmostEqual(self.f_score("doll.3mf"), whole, delta=0.005)
+                if self.scan_killed_and_resumed(device, at) is None:
+                    late += 1
+                else:
+                    self.assertAlmostEqual(self.f_score("doll.3mf"), whole, delta=0.005)
             harness.remove(self.dir / "doll.recording")
             harness.remove(self.dir / "state")
             (self.dir / "doll.3mf").unlink(missing_ok=True)
+        print(f"{RESUMES} kills of a turn: {RESUMES - late} resumed, {late} when all was recorded", flush=True)
 
     def test_seconds_bound_the_wait_for_an_object(self):
         self.refused(FAILED, "scan", "--device", self.device + "&calibration=true&appears=60s",
@@ -587,15 +594,21 @@ class Turntable(harness.TestCase):
         self.ok(*self.stop_and_go(self.table(), "-o", "whole"))
         whole = made("whole")
         chance = random.Random(1)
+        late = 0
         for kill in range(RESUMES):
             at = chance.randrange(35)
             with self.subTest(kill=kill, at=at):
                 table = self.table()
                 self.end_at(at, signal.SIGKILL, *self.stop_and_go(table, "-o", "r"))
                 time.sleep(chance.uniform(0.0, 0.2))
-                self.ok(*self.stop_and_go(table, "--resume", "r"))
+                # On a busy machine the last stops may be over before the kill.
+                if description(self.dir / "r")["complete"]:
+                    late += 1
+                else:
+                    self.ok(*self.stop_and_go(table, "--resume", "r"))
                 self.assertEqual(made("r"), whole)
             shutil.rmtree(self.dir / "r")
+        print(f"{RESUMES} kills at stops: {RESUMES - late} resumed, {late} when all was recorded", flush=True)
 
     def test_one_that_was_resumed_and_killed_is_replaced(self):
         table = self.table()
