@@ -241,5 +241,15 @@ TEST(Recording, PositionBeyondTheEndThrows) {
   EXPECT_THROW((void)recording.read(3), std::invalid_argument);
 }
 
+TEST(Recording, OpeningIsCancelled) {
+  const TempFolder temp;
+  RunContext context;
+  EXPECT_TRUE(Recording::open(three_frames(temp), context));
+  context.cancel();
+  const auto recording = Recording::open(temp / "r", context);
+  ASSERT_FALSE(recording);
+  EXPECT_EQ(recording.error().code, ErrorCode::kCancelled);
+}
+
 }  // namespace
 }  // namespace turnscan

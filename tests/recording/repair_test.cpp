@@ -222,5 +222,17 @@ TEST(Repair, RefusesWhatIsNoRecording) {
   EXPECT_EQ(repair_recording(temp / "none").error().code, ErrorCode::kNotFound);
 }
 
+TEST(Repair, ChangesNothingWhenCancelled) {
+  const TempFolder temp;
+  unfinished(temp / "r", 3);
+  const std::string before = content_of(temp / "r/recording.json");
+  RunContext context;
+  context.cancel();
+  const auto report = repair_recording(temp / "r", context);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(content_of(temp / "r/recording.json"), before);
+}
+
 }  // namespace
 }  // namespace turnscan

@@ -129,7 +129,7 @@ Result<Reconstruction> record_and_reconstruct(const VirtualScan& scan, const fs:
                                               const ReconstructOptions& options,
                                               const RunContext& context) {
   TURNSCAN_TRY(write_recording(folder / "recording", scan, context));
-  TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder / "recording"));
+  TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder / "recording", context));
   TURNSCAN_ASSIGN(Reconstruction result, reconstruct(recording, options, {}, context));
   TURNSCAN_TRY(write_file_atomically(folder / "report.json", report_json(result, options)));
   return result;

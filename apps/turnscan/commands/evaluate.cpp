@@ -113,7 +113,7 @@ class EvaluateCommand : public Command {
   Result<Evaluation> judge(const TriangleMesh& mesh, const TriangleMesh& reference,
                            const RunContext& context) const {
     if (seen_from_.empty()) return evaluate(mesh, reference, options_, {}, context);
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(seen_from_));
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(seen_from_, context));
     TURNSCAN_ASSIGN(const Scene scene,
                     Scene::create(std::span(&reference, 1), std::nullopt, context));
     return evaluate(mesh, reference, options_, seen_by(scene, recording, context), context);

@@ -76,7 +76,7 @@ class InfoCommand : public Command {
   }
 
   static Result<> repair(const std::filesystem::path& folder, Session& session) {
-    TURNSCAN_ASSIGN(const RepairReport report, repair_recording(folder));
+    TURNSCAN_ASSIGN(const RepairReport report, repair_recording(folder, session.context()));
     for (const std::string& text : report.done) session.print("Repair: {}\n", text);
     for (const std::string& name : report.kept)
       session.print("Repair: the file that was replaced is kept as {}\n", name);

@@ -155,7 +155,7 @@ Result<std::vector<std::string>> Jobs::scan(ScanRequest request, Job& job) {
 }
 
 Result<std::vector<std::string>> Jobs::reconstruct(const fs::path& folder, Job& job) {
-  TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder / "recording"));
+  TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder / "recording", job.context));
   ReconstructRequest request;
   request.options = settings_.reconstruct;
   request.turntable = settings_.setup.turntable_file;

@@ -96,12 +96,30 @@ Result<FrameRow> parse_row(const text::CsvColumns& columns, const text::TextLine
   return row;
 }
 
-Result<> check_indices(std::vector<FrameRow>& rows, std::vector<std::string>& notes) {
+/// Rows of one index stay in their order. Numbers are sorted and each row is moved once, because a
+/// row has hundreds of bytes.
+Result<std::vector<FrameRow>> sorted_by_index(std::vector<FrameRow> rows,
+                                              const RunContext& context) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // index, position
+  order.reserve(rows.size());
+  for (const FrameRow& row : rows) order.emplace_back(row.info.index, std::uint32_t(order.size()));
+  std::sort(order.begin(), order.end());
+  std::vector<FrameRow> sorted;
+  sorted.reserve(rows.size());
+  for (const auto& [index, position] : order) {
+    TURNSCAN_TRY(context.check());
+    sorted.push_back(std::move(rows[position]));
+  }
+  return sorted;
+}
+
+Result<> check_indices(std::vector<FrameRow>& rows, std::vector<std::string>& notes,
+                       const RunContext& context) {
   const auto less = [](const FrameRow& a, const FrameRow& b) {
     return a.info.index < b.info.index;
   };
   if (!std::is_sorted(rows.begin(), rows.end(), less)) {
-    std::stable_sort(rows.begin(), rows.end(), less);
+    TURNSCAN_ASSIGN(rows, sorted_by_index(std::move(rows), context));
     notes.emplace_back("frames.csv is not in the order of the indices; the frames were sorted");
   }
   const auto twice = std::adjacent_find(
@@ -149,7 +167,8 @@ std::string frames_csv_line(const FrameInfo& info, const std::string& color_file
   return line;
 }
 
-Result<FrameTable> parse_frames_csv(std::string_view text, std::size_t sensor_count) {
+Result<FrameTable> parse_frames_csv(std::string_view text, std::size_t sensor_count,
+                                    const RunContext& context) {
   FrameTable table;
   // A file system that lost power may leave zeros in place of the last lines.
   const std::size_t whole = text.find_last_not_of('\0') + 1;
@@ -158,6 +177,7 @@ Result<FrameTable> parse_frames_csv(std::string_view text, std::size_t sensor_co
   text::LineReader lines(text.substr(0, whole));
   TURNSCAN_ASSIGN(const text::CsvColumns columns, parse_header(lines));
   while (const auto line = lines.next()) {
+    TURNSCAN_TRY(context.check());
     if (text::trimmed(line->text).empty()) continue;
     auto row = parse_row(columns, *line, sensor_count);
     if (!row && !line->ended) {
@@ -172,7 +192,7 @@ Result<FrameTable> parse_frames_csv(std::string_view text, std::size_t sensor_co
       table.rows.push_back(std::move(*row));
     }
   }
-  TURNSCAN_TRY(check_indices(table.rows, table.notes));
+  TURNSCAN_TRY(check_indices(table.rows, table.notes, context));
   return table;
 }
 

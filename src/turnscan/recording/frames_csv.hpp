@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <turnscan/core/frame.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <vector>
 
 namespace turnscan::recording_format {
@@ -28,7 +29,8 @@ std::string frames_csv_header();
 std::string frames_csv_line(const FrameInfo& info, const std::string& color_file);
 
 /// Reads the whole table. A last line without its end that cannot be parsed is skipped with a note;
-/// every other wrong line is an error (kFormat) that names it.
-Result<FrameTable> parse_frames_csv(std::string_view text, std::size_t sensor_count);
+/// every other wrong line is an error (kFormat) that names it. Fails with kCancelled, too.
+Result<FrameTable> parse_frames_csv(std::string_view text, std::size_t sensor_count,
+                                    const RunContext& context = RunContext());
 
 }  // namespace turnscan::recording_format

@@ -32,7 +32,8 @@ Result<RecordingDescription> read_description(const fs::path& folder) {
 }
 
 /// A writer that was killed between the two files leaves no table: a recording without frames.
-Result<FrameTable> read_table(const fs::path& folder, std::size_t sensor_count) {
+Result<FrameTable> read_table(const fs::path& folder, std::size_t sensor_count,
+                              const RunContext& context) {
   const fs::path path = folder / "frames.csv";
   auto text = read_file(path, kMaxTableBytes);
   if (!text && text.error().code == ErrorCode::kNotFound)
@@ -40,7 +41,7 @@ Result<FrameTable> read_table(const fs::path& folder, std::size_t sensor_count) 
   if (!text) return tl::unexpected<Error>(std::move(text).error());
   if (text->find('\n') == std::string::npos)
     return FrameTable{{}, {"frames.csv has no whole line: there are no frames"}};
-  auto table = parse_frames_csv(*text, sensor_count);
+  auto table = parse_frames_csv(*text, sensor_count, context);
   if (!table) return in_file(path, std::move(table).error());
   return table;
 }
@@ -66,20 +67,20 @@ class DefectNote {
   std::size_t count_ = 0;
 };
 
-/// Fails if this program lacks resources for the check, which is no defect of the frame.
-Result<> check_resources(const FileCheck& check, const fs::path& file) {
-  if (check.state != FileState::kNoResources) return {};
+/// If this program lacks resources for the check, that is no defect of the frame.
+tl::unexpected<Error> no_resources(const FileCheck& check, const fs::path& file) {
   return fail_at(file.string(), ErrorCode::kResourceLimit,
                  "it {}; raise the limit (ulimit -n) or end other programs", check.words);
 }
 
 Result<> check_files(const fs::path& folder, std::vector<FrameRow>& rows,
-                     std::vector<std::string>& notes) {
+                     std::vector<std::string>& notes, const RunContext& context) {
   DefectNote dropped("marked dropped"), unread("left out"), colorless("read without colour");
   for (FrameRow& row : rows) {
+    TURNSCAN_TRY(context.check());
     if (row.info.status == FrameStatus::kDropped) continue;
     const FileCheck check = check_frame_file(folder, row);
-    TURNSCAN_TRY(check_resources(check, folder / row.info.file));
+    if (check.state == FileState::kNoResources) return no_resources(check, folder / row.info.file);
     if (check.state != FileState::kWhole) {
       (check.state == FileState::kLost ? dropped : unread)
           .add(row.info, row.info.file, check.words);
@@ -88,7 +89,7 @@ Result<> check_files(const fs::path& folder, std::vector<FrameRow>& rows,
     }
     if (row.color_file.empty()) continue;
     const FileCheck color = check_file(folder / row.color_file);
-    TURNSCAN_TRY(check_resources(color, folder / row.color_file));
+    if (color.state == FileState::kNoResources) return no_resources(color, folder / row.color_file);
     if (color.state == FileState::kWhole) continue;
     colorless.add(row.info, row.color_file, color.words);
     row.color_file.clear();
@@ -159,18 +160,20 @@ namespace turnscan {
 using namespace recording_format;
 namespace fs = std::filesystem;
 
-Result<Recording> Recording::open(const fs::path& folder) {
+Result<Recording> Recording::open(const fs::path& folder, const RunContext& context) {
   Recording recording;
   recording.folder_ = folder;
   TURNSCAN_ASSIGN(RecordingDescription description, read_description(folder));
-  TURNSCAN_ASSIGN(FrameTable table, read_table(folder, description.header.sensors.size()));
+  TURNSCAN_ASSIGN(FrameTable table, read_table(folder, description.header.sensors.size(), context));
   recording.notes_ = std::move(table.notes);
   note_completeness(description, table.rows.size(), recording.notes_);
-  TURNSCAN_TRY(check_files(folder, table.rows, recording.notes_));
+  TURNSCAN_TRY(check_files(folder, table.rows, recording.notes_, context));
   check_last_scan(folder, description.header, table.rows, recording.notes_);
   recording.header_ = std::move(description.header);
   recording.capture_ = std::move(description.capture);
   recording.complete_ = description.complete;
+  recording.frames_.reserve(table.rows.size());
+  recording.color_files_.reserve(table.rows.size());
   for (FrameRow& row : table.rows) {
     const auto& resumed = description.resumed_at;
     row.info.stretch = static_cast<std::uint32_t>(

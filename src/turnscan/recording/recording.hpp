@@ -35,8 +35,10 @@ class Recording : public FrameSequence {
   /// with a truncated one, becomes FrameStatus::kDropped.
   /// Fails with kNotFound if there is no recording, with kUnsupported if the schema is newer, with
   /// kFormat if recording.json is damaged or a line of frames.csv is wrong (two frames with one
-  /// index, a number that is not finite, a sensor that does not exist, a file outside the folder).
-  static Result<Recording> open(const std::filesystem::path& folder);
+  /// index, a number that is not finite, a sensor that does not exist, a file outside the folder),
+  /// and with kCancelled.
+  static Result<Recording> open(const std::filesystem::path& folder,
+                                const RunContext& context = RunContext());
 
   const SequenceHeader& header() const override { return header_; }
   const std::vector<FrameInfo>& frames() const override { return frames_; }

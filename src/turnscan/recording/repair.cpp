@@ -30,9 +30,11 @@ struct Inspection {
   std::set<std::string> named;  ///< files that a line names
 };
 
-Inspection inspect(const fs::path& folder, std::vector<FrameRow> rows, RepairReport& report) {
+Result<Inspection> inspect(const fs::path& folder, std::vector<FrameRow> rows, RepairReport& report,
+                           const RunContext& context) {
   Inspection out;
   for (FrameRow& row : rows) {
+    TURNSCAN_TRY(context.check());
     out.named.insert(row.info.file);
     if (row.info.status == FrameStatus::kDropped) continue;
     const FileCheck check = check_frame_file(folder, row);
@@ -56,17 +58,17 @@ struct NewTable {
 };
 
 Result<NewTable> new_table(const fs::path& folder, const std::string& text, std::size_t sensors,
-                           RepairReport& report) {
+                           RepairReport& report, const RunContext& context) {
   if (text.find('\n') == std::string::npos) return NewTable{frames_csv_header(), {}, 0};
-  auto table = parse_frames_csv(text, sensors);
+  auto table = parse_frames_csv(text, sensors, context);
   if (!table) {
     Error error = std::move(table).error();
     error.path = (folder / "frames.csv").string();
     return tl::unexpected<Error>(std::move(error));
   }
   report.done = table->notes;
-  Inspection inspection = inspect(folder, std::move(table->rows), report);
-  TURNSCAN_ASSIGN(std::string mended, repaired_frames_csv(text, inspection.rows, sensors));
+  TURNSCAN_ASSIGN(Inspection inspection, inspect(folder, std::move(table->rows), report, context));
+  TURNSCAN_ASSIGN(std::string mended, repaired_frames_csv(text, inspection.rows, sensors, context));
   return NewTable{std::move(mended), std::move(inspection.named), inspection.rows.size()};
 }
 
@@ -173,9 +175,9 @@ namespace turnscan {
 using namespace recording_format;
 namespace fs = std::filesystem;
 
-Result<RepairReport> repair_recording(const fs::path& folder) {
+Result<RepairReport> repair_recording(const fs::path& folder, const RunContext& context) {
   const fs::path json = folder / "recording.json", csv = folder / "frames.csv";
-  TURNSCAN_TRY(Recording::open(folder));  // it rejects with the right errors
+  TURNSCAN_TRY(Recording::open(folder, context));  // it rejects with the right errors
   const TableLock lock(csv);
   if (!lock.held())
     return fail_at(folder.string(), ErrorCode::kIo,
@@ -186,9 +188,10 @@ Result<RepairReport> repair_recording(const fs::path& folder) {
   report.was_complete = description.complete;
   TURNSCAN_ASSIGN(const std::string old_table, table_text(folder));
   TURNSCAN_ASSIGN(const NewTable table,
-                  new_table(folder, old_table, description.header.sensors.size(), report));
+                  new_table(folder, old_table, description.header.sensors.size(), report, context));
   TURNSCAN_ASSIGN(const std::string completed, completed_description(text, table.rows));
   count_without_line(folder, table.named, report);
+  TURNSCAN_TRY(context.check());
   TURNSCAN_TRY(replace(csv, old_table, table.text, report));
   TURNSCAN_TRY(replace(json, text, completed, report));
   remove_leftovers(folder, report);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <vector>
 
 namespace turnscan {
@@ -28,8 +29,9 @@ struct RepairReport {
 /// of other programs. The replaced file is kept beside the new one (frames.csv.before-repair),
 /// which is read back before it takes the name. Images are never removed, and symbolic links to
 /// other folders are not followed. If interrupted at any moment, it leaves a recording that can be
-/// repaired again. Fails as Recording::open() does, and with kIo if the recording is still being
-/// written or the folder is not writable.
-Result<RepairReport> repair_recording(const std::filesystem::path& folder);
+/// repaired again. Fails as Recording::open() does (with kCancelled before anything is replaced),
+/// and with kIo if the recording is still being written or the folder is not writable.
+Result<RepairReport> repair_recording(const std::filesystem::path& folder,
+                                      const RunContext& context = RunContext());
 
 }  // namespace turnscan

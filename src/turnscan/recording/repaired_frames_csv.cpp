@@ -26,13 +26,14 @@ class TableMender {
         columns_(std::move(columns)),
         end_(text.find("\r\n") < text.find('\n') ? "\r\n" : "\n") {}
 
-  Result<std::string> mend(const std::vector<FrameRow>& rows) const {
-    TURNSCAN_ASSIGN(const std::vector<bool> dropped, newly_dropped(rows));
+  Result<std::string> mend(const std::vector<FrameRow>& rows, const RunContext& context) const {
+    TURNSCAN_ASSIGN(const std::vector<bool> dropped, newly_dropped(rows, context));
     const bool add_column =
         !columns_.has("status") && std::find(dropped.begin(), dropped.end(), true) != dropped.end();
     std::string out(lines_.front());
     out += (add_column ? ",status" : "") + end_;
     for (std::size_t i = 0; i < rows.size(); ++i) {
+      TURNSCAN_TRY(context.check());
       const std::string_view line = lines_[rows[i].line - 1];
       if (add_column) {
         out += fmt::format("{},{}", line, dropped[i] ? "dropped" : "");
@@ -48,9 +49,11 @@ class TableMender {
   }
 
  private:
-  Result<std::vector<bool>> newly_dropped(const std::vector<FrameRow>& rows) const {
+  Result<std::vector<bool>> newly_dropped(const std::vector<FrameRow>& rows,
+                                          const RunContext& context) const {
     std::vector<bool> out;
     for (const FrameRow& row : rows) {
+      TURNSCAN_TRY(context.check());
       TURNSCAN_ASSIGN(const auto fields, text::csv_fields(lines_[row.line - 1]));
       out.push_back(row.info.status == FrameStatus::kDropped &&
                     columns_.field(fields, "status") != "dropped");
@@ -80,11 +83,12 @@ bool same_rows(const std::vector<FrameRow>& a, const std::vector<FrameRow>& b) {
 }  // namespace
 
 Result<std::string> repaired_frames_csv(std::string_view text, const std::vector<FrameRow>& rows,
-                                        std::size_t sensor_count) {
+                                        std::size_t sensor_count, const RunContext& context) {
   text::LineReader reader(text);
   TURNSCAN_ASSIGN(text::CsvColumns columns, text::CsvColumns::parse(reader.next()->text));
-  TURNSCAN_ASSIGN(std::string mended, TableMender(text, std::move(columns)).mend(rows));
-  const auto back = parse_frames_csv(mended, sensor_count);
+  TURNSCAN_ASSIGN(std::string mended, TableMender(text, std::move(columns)).mend(rows, context));
+  const auto back = parse_frames_csv(mended, sensor_count, context);
+  TURNSCAN_TRY(context.check());
   if (!back || !same_rows(back->rows, rows))
     return fail(ErrorCode::kLibrary,
                 "the mended table would not read back as the frames that it lists; the recording "

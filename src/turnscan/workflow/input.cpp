@@ -78,7 +78,7 @@ Result<Input> open_input(const fs::path& path, const ImportOptions& options,
     return out;
   }
   const fs::path folder = !named ? path : path.has_parent_path() ? path.parent_path() : ".";
-  TURNSCAN_ASSIGN(Recording recording, Recording::open(folder));
+  TURNSCAN_ASSIGN(Recording recording, Recording::open(folder, context));
   out.notes = recording.notes();
   out.frames = std::make_unique<Recording>(std::move(recording));
   return out;
@@ -134,7 +134,7 @@ Result<Input> keep_input(const fs::path& path, const Input& input, const fs::pat
     return fail_at(path.string(), ErrorCode::kInvalidOption,
                    "this is a recording already; leave --keep-recording out");
   TURNSCAN_TRY(write_recording(folder, *input.frames, context));
-  return open_input(folder);
+  return open_input(folder, {}, context);
 }
 
 Result<SequenceSummary> summarize(const Input& input, const RunContext& context) {

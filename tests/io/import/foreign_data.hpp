@@ -36,8 +36,16 @@ inline void put_scan(const TempFolder& folder, std::string_view name, float x = 
   ASSERT_TRUE(write_cloud(folder / name, file));
 }
 
+/// Opens a data set of any layout, and checks that opening it can be cancelled.
 inline std::unique_ptr<FrameSequence> open(const std::filesystem::path& path,
                                            const ImportOptions& options = {}) {
+  RunContext cancelled;
+  cancelled.cancel();
+  const auto none = open_foreign(path, options, cancelled);
+  EXPECT_FALSE(none);
+  if (!none) {
+    EXPECT_EQ(none.error().code, ErrorCode::kCancelled) << none.error().text();
+  }
   auto sequence = open_foreign(path, options);
   EXPECT_TRUE(sequence) << sequence.error().text();
   return sequence ? std::move(*sequence) : throw std::runtime_error("not opened");

@@ -93,5 +93,27 @@ TEST(JsonObject, NamesLineAndColumnOfAWrongField) {
   EXPECT_EQ(camera->number("fy").error().message, "line 2, column 12: camera.fy is missing");
 }
 
+TEST(JsonBytes, ParsingEndsWhenCancelled) {
+  RunContext context;
+  context.cancel();
+  const auto json = parse_json("{}", context);
+  ASSERT_FALSE(json);
+  EXPECT_EQ(json.error().code, ErrorCode::kCancelled);
+}
+
+TEST(JsonBytes, ValuesThatTakeFarMoreMemoryThanTheirTextAreRefused) {
+  // A member takes a hundred bytes and more, however short its name.
+  std::string members = "[0";
+  for (int i = 0; i < 700000; ++i) members += ",{\"a\":1}";
+  const auto refused = parse_json(members + "]");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kResourceLimit);
+  std::string numbers = "[0";
+  for (int i = 0; i < 2000000; ++i) numbers += ",1";
+  EXPECT_TRUE(parse_json(numbers + "]"));
+  // As a part of a small file it is out of proportion, too.
+  EXPECT_FALSE(parse_json(numbers + "]", file::ReadBudget(1000)));
+}
+
 }  // namespace
 }  // namespace turnscan::text

@@ -143,7 +143,7 @@ class Session {
 
   /// Numbers the new frames after those of the existing passes.
   Result<> continue_recording() {
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder_));
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder_, context_));
     if (!has_sensors_of(recording))
       return fail_at(folder_.string(), ErrorCode::kInvalidOption,
                      "its passes were recorded with other sensors; make a recording of its own");
@@ -189,11 +189,11 @@ class Session {
   }
 
   Result<> resume_recording() {
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder_));
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder_, context_));
     if (const std::string reason = reason_against(recording); !reason.empty())
       return fail_at(folder_.string(), ErrorCode::kInvalidOption, "{}", reason);
     was_finished_ = !is_unfinished_recording(folder_);
-    TURNSCAN_TRY(repair_recording(folder_));
+    TURNSCAN_TRY(repair_recording(folder_, context_));
     header_ = recording.header();
     settings_ = recording.capture_settings();
     settings_.erase(kEndedEarly);

@@ -157,7 +157,8 @@ std::pair<SourceUri, SourceUri> split_parameters(const SourceUri& uri, const Opt
   return {of_replay, of_import};
 }
 
-Result<Film> open_film(const SourceUri& uri, const ImportOptions& import) {
+Result<Film> open_film(const SourceUri& uri, const ImportOptions& import,
+                       const RunContext& context) {
   const std::filesystem::path path(uri.address);
   TURNSCAN_ASSIGN(const bool recording_there, file::is_there(path / "recording.json"));
   Film film;
@@ -165,14 +166,14 @@ Result<Film> open_film(const SourceUri& uri, const ImportOptions& import) {
   const bool stated = import.format != ImportFormat::kAuto;
   if (!recording_there &&
       (stated || is_foreign(path) || std::filesystem::is_regular_file(path, error))) {
-    TURNSCAN_ASSIGN(film.frames, open_foreign(path, import));
+    TURNSCAN_ASSIGN(film.frames, open_foreign(path, import, context));
     return film;
   }
   if (!uri.parameters.empty())
     return fail(ErrorCode::kInvalidOption,
                 "replay: {} is for files of other programs, and {} is a recording; leave it out",
                 uri.parameters.front().first, uri.address);
-  TURNSCAN_ASSIGN(Recording recording, Recording::open(path));
+  TURNSCAN_ASSIGN(Recording recording, Recording::open(path, context));
   film.settings = recording.capture_settings();
   film.frames = std::make_unique<Recording>(std::move(recording));
   return film;
@@ -192,7 +193,7 @@ Result<std::unique_ptr<Grabber>> open_replay(const SourceUri& uri, const RunCont
   TURNSCAN_TRY(set_from_uri(of_import, importing));
   TURNSCAN_ASSIGN(const double rate, rate_of(options.speed));
   TURNSCAN_TRY(context.check());
-  TURNSCAN_ASSIGN(Film film, open_film(of_import, import));
+  TURNSCAN_ASSIGN(Film film, open_film(of_import, import, context));
   return std::unique_ptr<Grabber>(
       std::make_unique<ReplayGrabber>(std::move(film), uri, rate, options.loop));
 }

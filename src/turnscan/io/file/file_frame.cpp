@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
+#include <charconv>
+#include <system_error>
 #include <turnscan/io/file/file_frame.hpp>
-#include <turnscan/io/text/number_text.hpp>
 
 namespace turnscan::file {
 
@@ -35,7 +36,10 @@ FileFrame frame_of_mark(std::string_view mark) {
   FileFrame frame;
   if (!mark.starts_with(kMark)) return frame;
   mark.remove_prefix(kMark.size());
-  frame.z_up = text::TextCursor(mark).floating(frame.base);
+  const char* const end = mark.data() + mark.size();
+  const auto [last, error] = std::from_chars(mark.data(), end, frame.base);
+  frame.z_up =
+      error == std::errc() && (last == end || std::string_view(" \t\r\n").find(*last) != mark.npos);
   return frame;
 }
 

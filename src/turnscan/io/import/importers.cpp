@@ -15,26 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// With a context or without.
-class Opener {
- public:
-  using Short = OpenResult (*)(const fs::path&, const ImportOptions&);
-  using Long = OpenResult (*)(const fs::path&, const ImportOptions&, const RunContext&);
-  Opener(Short function) : short_(function) {}
-  Opener(Long function) : long_(function) {}
-  OpenResult operator()(const fs::path& path, const ImportOptions& options,
-                        const RunContext& context) const {
-    return long_ != nullptr ? long_(path, options, context) : short_(path, options);
-  }
-
- private:
-  Short short_ = nullptr;
-  Long long_ = nullptr;
-};
-
 struct Importer {
   ImporterInfo info;
-  Opener open;
+  OpenResult (*open)(const fs::path&, const ImportOptions&, const RunContext&);
   /// Options that apply to the layout, in addition to "format" and the turntable's.
   std::vector<std::string_view> options;
 };

@@ -24,11 +24,13 @@ Result<fs::path> find_table(const fs::path& folder, const ImportOptions& options
 }
 
 Result<std::vector<ForeignFrame>> frames_of(const fs::path& path, const fs::path& folder,
-                                            const ImportOptions& options) {
+                                            const ImportOptions& options,
+                                            const RunContext& context) {
   TURNSCAN_ASSIGN(const Eigen::Matrix3d axes, stated_axes(options));
   TURNSCAN_ASSIGN(const std::vector<text::AngleRow> rows, read_angle_table(path));
   std::vector<ForeignFrame> frames;
   for (const text::AngleRow& row : rows) {
+    TURNSCAN_TRY(context.check());
     ForeignFrame& frame = frames.emplace_back();
     FrameInfo& info = frame.info;
     if (row.angle_rad) info.angle_rad = options.clockwise ? -*row.angle_rad : *row.angle_rad;
@@ -104,9 +106,10 @@ Result<> turn_header(const ImportOptions& options, SequenceHeader& header) {
 
 }  // namespace
 
-OpenResult open_cloud_folder(const fs::path& folder, const ImportOptions& options) {
+OpenResult open_cloud_folder(const fs::path& folder, const ImportOptions& options,
+                             const RunContext& context) {
   TURNSCAN_ASSIGN(const fs::path table, find_table(folder, options));
-  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, frames_of(table, folder, options));
+  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, frames_of(table, folder, options, context));
   TURNSCAN_ASSIGN(const double metres_per_unit, point_scale(options, std::nullopt));
   put_in_order(frames);
   SequenceHeader header;

@@ -52,27 +52,38 @@ class ForeignSequence : public FrameSequence {
 
 using OpenResult = Result<std::unique_ptr<FrameSequence>>;
 
-// One opener per layout. path is the file or folder that the user named. Those of containers, whose
-// content says how much there is to do, take a context.
-OpenResult open_stanford_conf(const std::filesystem::path& path, const ImportOptions& options);
-OpenResult open_cloud_folder(const std::filesystem::path& folder, const ImportOptions& options);
-OpenResult open_tum(const std::filesystem::path& folder, const ImportOptions& options);
-OpenResult open_frame_pose(const std::filesystem::path& folder, const ImportOptions& options);
+// One opener per layout. path is the file or folder that the user named. They fail with kCancelled
+// soon after the context is.
+OpenResult open_stanford_conf(const std::filesystem::path& path, const ImportOptions& options,
+                              const RunContext& context);
+OpenResult open_cloud_folder(const std::filesystem::path& folder, const ImportOptions& options,
+                             const RunContext& context);
+OpenResult open_tum(const std::filesystem::path& folder, const ImportOptions& options,
+                    const RunContext& context);
+OpenResult open_frame_pose(const std::filesystem::path& folder, const ImportOptions& options,
+                           const RunContext& context);
 OpenResult open_matroska(const std::filesystem::path& path, const ImportOptions& options,
                          const RunContext& context);
-OpenResult open_open3d_rgbd(const std::filesystem::path& folder, const ImportOptions& options);
-OpenResult open_json_png(const std::filesystem::path& path, const ImportOptions& options);
+OpenResult open_open3d_rgbd(const std::filesystem::path& folder, const ImportOptions& options,
+                            const RunContext& context);
+OpenResult open_json_png(const std::filesystem::path& path, const ImportOptions& options,
+                         const RunContext& context);
 OpenResult open_record3d(const std::filesystem::path& path, const ImportOptions& options,
                          const RunContext& context);
 OpenResult open_sens(const std::filesystem::path& path, const ImportOptions& options,
                      const RunContext& context);
 OpenResult open_klg(const std::filesystem::path& path, const ImportOptions& options,
                     const RunContext& context);
-OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options);
-OpenResult open_depth_folder(const std::filesystem::path& folder, const ImportOptions& options);
-OpenResult open_nerfstudio(const std::filesystem::path& path, const ImportOptions& options);
-OpenResult open_bop(const std::filesystem::path& folder, const ImportOptions& options);
-OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions& options);
+OpenResult open_scanner_app(const std::filesystem::path& folder, const ImportOptions& options,
+                            const RunContext& context);
+OpenResult open_depth_folder(const std::filesystem::path& folder, const ImportOptions& options,
+                             const RunContext& context);
+OpenResult open_nerfstudio(const std::filesystem::path& path, const ImportOptions& options,
+                           const RunContext& context);
+OpenResult open_bop(const std::filesystem::path& folder, const ImportOptions& options,
+                    const RunContext& context);
+OpenResult open_rtabmap(const std::filesystem::path& folder, const ImportOptions& options,
+                        const RunContext& context);
 
 /// Whether a file of this name may be a depth image: PNG, TIFF, PGM, NPY or bare numbers.
 bool is_depth_name(std::string_view name);

@@ -62,11 +62,13 @@ Result<std::optional<ForeignFrame>> parse_line(std::string_view text, const fs::
   return std::optional<ForeignFrame>(std::move(frame));
 }
 
-Result<std::vector<ForeignFrame>> parse_conf(const fs::path& path, const ImportOptions& options) {
+Result<std::vector<ForeignFrame>> parse_conf(const fs::path& path, const ImportOptions& options,
+                                             const RunContext& context) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
   std::vector<ForeignFrame> frames;
   text::LineReader lines(text);
   while (const auto line = lines.next_content()) {
+    TURNSCAN_TRY(context.check());
     auto frame = parse_line(line->text, path.parent_path(), options);
     if (!frame)
       return fail_at(path.string(), frame.error().code, "line {}: {}", line->number,
@@ -85,9 +87,10 @@ Result<std::vector<ForeignFrame>> parse_conf(const fs::path& path, const ImportO
 
 }  // namespace
 
-OpenResult open_stanford_conf(const fs::path& path, const ImportOptions& options) {
+OpenResult open_stanford_conf(const fs::path& path, const ImportOptions& options,
+                              const RunContext& context) {
   TURNSCAN_ASSIGN(const fs::path conf, find_conf(path));
-  TURNSCAN_ASSIGN(const std::vector<ForeignFrame> frames, parse_conf(conf, options));
+  TURNSCAN_ASSIGN(const std::vector<ForeignFrame> frames, parse_conf(conf, options, context));
   TURNSCAN_ASSIGN(const double metres_per_unit, point_scale(options, 1.0));
   TURNSCAN_ASSIGN(const std::optional<Viewpoint> viewpoint, stated_viewpoint(options));
   SequenceHeader header;

@@ -109,11 +109,12 @@ Result<fs::path> color_beside(const fs::path& folder, const std::string& name) {
 }
 
 Result<> put_angles(const fs::path& path, const ImportOptions& options, const fs::path& folder,
-                    std::vector<ForeignFrame>& frames) {
+                    std::vector<ForeignFrame>& frames, const RunContext& context) {
   TURNSCAN_ASSIGN(const std::vector<text::AngleRow> rows, read_angle_table(path));
   std::map<std::string, const text::AngleRow*> of_name;
   for (const text::AngleRow& row : rows) of_name[fs::path(row.file).filename().string()] = &row;
   for (ForeignFrame& frame : frames) {
+    TURNSCAN_TRY(context.check());
     const auto row = of_name.find(frame.data.filename().string());
     if (row == of_name.end())
       return fail_at(path.string(), ErrorCode::kMissingData, "the table does not name {}",
@@ -207,7 +208,8 @@ bool is_depth_name(std::string_view name) {
                      [&](const char* ending) { return file::lower_extension(name) == ending; });
 }
 
-OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& options) {
+OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& options,
+                             const RunContext& context) {
   TURNSCAN_ASSIGN(const DepthFolder depth, depth_images_in(folder));
   SequenceHeader header;
   header.source = fmt::format("depth images of {}", display_name(folder));
@@ -239,6 +241,7 @@ OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& option
              "tx, ty, tz, qx, qy, qz, qw)");
   std::vector<ForeignFrame> frames;
   for (const std::string& name : depth.names) {
+    TURNSCAN_TRY(context.check());
     ForeignFrame& frame = frames.emplace_back();
     frame.info.index = std::uint32_t(frames.size() - 1);
     if (options.fps) frame.info.time_s = double(frame.info.index) / *options.fps;
@@ -246,7 +249,8 @@ OpenResult open_depth_folder(const fs::path& folder, const ImportOptions& option
     frame.info.file = frame.data.lexically_relative(folder).string();
     TURNSCAN_ASSIGN(frame.color, color_beside(folder, name));
   }
-  if (!options.angles.empty()) TURNSCAN_TRY(put_angles(options.angles, options, folder, frames));
+  if (!options.angles.empty())
+    TURNSCAN_TRY(put_angles(options.angles, options, folder, frames, context));
   fit_to_image(first.image, sensor.intrinsics, header);
   sensor.intrinsics.width = first.image.width;
   sensor.intrinsics.height = first.image.height;

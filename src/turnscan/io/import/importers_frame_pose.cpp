@@ -49,12 +49,13 @@ Result<std::optional<Pose>> read_pose(const fs::path& path) {
   return std::optional<Pose>(*pose);
 }
 
-Result<std::vector<ForeignFrame>> list_frames(const fs::path& folder,
-                                              const ImportOptions& options) {
+Result<std::vector<ForeignFrame>> list_frames(const fs::path& folder, const ImportOptions& options,
+                                              const RunContext& context) {
   TURNSCAN_ASSIGN(const std::vector<std::string> list, names_in(folder));
   const std::set<std::string, std::less<>> names(list.begin(), list.end());
   std::vector<ForeignFrame> frames;
   for (const std::string& name : list) {
+    TURNSCAN_TRY(context.check());
     if (!name.starts_with(kPrefix) || !name.ends_with(kDepthSuffix)) continue;
     const std::string base = name.substr(0, name.size() - kDepthSuffix.size());
     const auto number =
@@ -116,14 +117,15 @@ Result<CameraIntrinsics> intrinsics_of(const fs::path& folder, const ImportOptio
 
 }  // namespace
 
-OpenResult open_frame_pose(const fs::path& folder, const ImportOptions& options) {
+OpenResult open_frame_pose(const fs::path& folder, const ImportOptions& options,
+                           const RunContext& context) {
   SequenceHeader header;
   header.source = fmt::format("frame-N.depth.png folder {}", display_name(folder));
   SensorInfo sensor;
   TURNSCAN_ASSIGN(sensor.intrinsics, intrinsics_of(folder, options));
   TURNSCAN_ASSIGN(sensor.depth_unit_m, depth_scale(options, std::nullopt));
   header.sensors.push_back(sensor);
-  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, list_frames(folder, options));
+  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, list_frames(folder, options, context));
   if (auto good = check_indices(frames); !good) return at_path(folder, std::move(good).error());
   drop_unplaced(frames, header);
   TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));

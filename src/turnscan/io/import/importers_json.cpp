@@ -243,10 +243,12 @@ Result<DepthFileOptions> float_files(const std::vector<ForeignFrame>& frames, Se
   return out;
 }
 
-Result<std::vector<ForeignFrame>> list_frames(const Views& views, const fs::path& folder) {
+Result<std::vector<ForeignFrame>> list_frames(const Views& views, const fs::path& folder,
+                                              const RunContext& context) {
   TURNSCAN_ASSIGN(const std::string ending, ending_of_images(folder));
   std::vector<ForeignFrame> frames;
   for (std::size_t i = 0; i < views.count; ++i) {
+    TURNSCAN_TRY(context.check());
     ForeignFrame frame;
     frame.info.index = static_cast<std::uint32_t>(i);
     frame.info.file =
@@ -274,9 +276,10 @@ struct Description {
   bool on_platter = true;
 };
 
-Result<Description> parse_description(const fs::path& path, const ImportOptions& options) {
+Result<Description> parse_description(const fs::path& path, const ImportOptions& options,
+                                      const RunContext& context) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
-  TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
+  TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text, context));
   TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, text));
   Description out;
   out.header.source = fmt::format("depth images of {}", display_name(path));
@@ -289,13 +292,14 @@ Result<Description> parse_description(const fs::path& path, const ImportOptions&
 
 }  // namespace
 
-OpenResult open_json_png(const fs::path& path, const ImportOptions& options) {
+OpenResult open_json_png(const fs::path& path, const ImportOptions& options,
+                         const RunContext& context) {
   TURNSCAN_ASSIGN(const fs::path file, find_json(path));
-  auto description = parse_description(file, options);
+  auto description = parse_description(file, options, context);
   if (!description) return at_path(file, std::move(description).error());
   SequenceHeader header = std::move(description->header);
   TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames,
-                  list_frames(description->views, file.parent_path()));
+                  list_frames(description->views, file.parent_path(), context));
   TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));
   TURNSCAN_ASSIGN(const DepthFileOptions files, float_files(frames, header.sensors.front()));
   TURNSCAN_TRY(look_at_first_images(header, frames));

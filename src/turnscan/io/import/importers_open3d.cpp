@@ -38,8 +38,8 @@ Result<std::optional<double>> positive(const text::JsonObject& object, const cha
   return value;
 }
 
-Result<Open3dFolder> parse_intrinsic(std::string_view text) {
-  TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
+Result<Open3dFolder> parse_intrinsic(std::string_view text, const RunContext& context) {
+  TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text, context));
   TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, text));
   Open3dFolder out;
   CameraIntrinsics& c = out.camera;
@@ -59,24 +59,24 @@ Result<Open3dFolder> parse_intrinsic(std::string_view text) {
   return out;
 }
 
-Result<std::optional<double>> parse_config_scale(std::string_view text) {
-  TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
+Result<std::optional<double>> parse_config_scale(std::string_view text, const RunContext& context) {
+  TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text, context));
   TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, text));
   return positive(root, "depth_scale");
 }
 
-Result<Open3dFolder> read_descriptions(const fs::path& folder) {
+Result<Open3dFolder> read_descriptions(const fs::path& folder, const RunContext& context) {
   fs::path path = folder / "intrinsic.json";
   TURNSCAN_ASSIGN(const bool there, file::is_there(path));
   if (!there) path = folder / "camera_intrinsic.json";
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
-  auto out = parse_intrinsic(text);
+  auto out = parse_intrinsic(text, context);
   if (!out) return at_path(path, std::move(out).error());
   const fs::path config = folder / "config.json";
   TURNSCAN_ASSIGN(const bool configured, file::is_there(config));
   if (!configured || out->steps_per_metre) return out;
   TURNSCAN_ASSIGN(const std::string config_text, read_file(config, kMaxTextBytes));
-  auto scale = parse_config_scale(config_text);
+  auto scale = parse_config_scale(config_text, context);
   if (!scale) return at_path(config, std::move(scale).error());
   out->steps_per_metre = *scale;
   return out;
@@ -94,12 +94,14 @@ std::string model_of_device(const std::string& device) {
 }
 
 /// Files NNNNN.png or .jpg of a subfolder by number; others are ignored.
-Result<std::map<std::uint32_t, fs::path>> numbered_images(const fs::path& folder) {
+Result<std::map<std::uint32_t, fs::path>> numbered_images(const fs::path& folder,
+                                                          const RunContext& context) {
   std::map<std::uint32_t, fs::path> out;
   TURNSCAN_ASSIGN(const bool there, file::is_there(folder));
   if (!there) return out;
   TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(folder));
   for (const std::string& name : names) {
+    TURNSCAN_TRY(context.check());
     const fs::path path = folder / name;
     const std::string ending = path.extension().string();
     if (ending != ".png" && ending != ".jpg" && ending != ".jpeg") continue;
@@ -112,9 +114,10 @@ Result<std::map<std::uint32_t, fs::path>> numbered_images(const fs::path& folder
   return out;
 }
 
-Result<std::vector<ForeignFrame>> list_images(const fs::path& folder, std::optional<double> fps) {
-  TURNSCAN_ASSIGN(const auto depths, numbered_images(folder / "depth"));
-  TURNSCAN_ASSIGN(const auto colors, numbered_images(folder / "color"));
+Result<std::vector<ForeignFrame>> list_images(const fs::path& folder, std::optional<double> fps,
+                                              const RunContext& context) {
+  TURNSCAN_ASSIGN(const auto depths, numbered_images(folder / "depth", context));
+  TURNSCAN_ASSIGN(const auto colors, numbered_images(folder / "color", context));
   std::vector<ForeignFrame> frames;
   for (const auto& [number, path] : depths) {
     ForeignFrame frame;
@@ -130,8 +133,9 @@ Result<std::vector<ForeignFrame>> list_images(const fs::path& folder, std::optio
 
 }  // namespace
 
-OpenResult open_open3d_rgbd(const fs::path& folder, const ImportOptions& options) {
-  TURNSCAN_ASSIGN(const Open3dFolder described, read_descriptions(folder));
+OpenResult open_open3d_rgbd(const fs::path& folder, const ImportOptions& options,
+                            const RunContext& context) {
+  TURNSCAN_ASSIGN(const Open3dFolder described, read_descriptions(folder, context));
   SequenceHeader header;
   header.source = fmt::format("Open3D folder {}", display_name(folder));
   SensorInfo sensor;
@@ -147,7 +151,7 @@ OpenResult open_open3d_rgbd(const fs::path& folder, const ImportOptions& options
              "depth images have 1000 steps a metre, as Open3D assumes; --depth-unit states "
              "another scale");
   const std::optional<double> fps = options.fps ? options.fps : described.fps;
-  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, list_images(folder, fps));
+  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, list_images(folder, fps, context));
   if (frames.empty())
     return fail_at((folder / "depth").string(), ErrorCode::kTooFewPoints,
                    "there are no images NNNNN.png");

@@ -247,7 +247,8 @@ Result<> place_frames(const ImportOptions& options, record3d::Metadata& metadata
 }
 
 Result<record3d::Metadata> read_metadata(const file::RandomAccessFile& file,
-                                         const zip::Directory& directory, SequenceHeader& header) {
+                                         const zip::Directory& directory,
+                                         const file::ReadBudget& budget, SequenceHeader& header) {
   const auto entry = std::find_if(directory.entries.begin(), directory.entries.end(),
                                   [](const zip::NamedEntry& e) { return e.name == "metadata"; });
   if (entry == directory.entries.end())
@@ -256,7 +257,7 @@ Result<record3d::Metadata> read_metadata(const file::RandomAccessFile& file,
                        ? "the file is cut off before its metadata; copy it from the phone again"
                        : "the archive has no entry \"metadata\": this is no recording of Record3D");
   TURNSCAN_ASSIGN(const std::string text, zip::read_entry(file, entry->entry, kMaxTextBytes));
-  auto metadata = record3d::parse_metadata(text);
+  auto metadata = record3d::parse_metadata(text, budget);
   if (!metadata) {
     Error error = std::move(metadata).error();
     error.message = "metadata: " + error.message;
@@ -302,7 +303,7 @@ OpenResult open_record3d(const fs::path& path, const ImportOptions& options,
   auto listed = zip::read_directory(file, budget);
   if (!listed) return at_path(path, std::move(listed).error());
   const zip::Directory& directory = *listed;
-  TURNSCAN_ASSIGN(record3d::Metadata metadata, read_metadata(file, directory, header));
+  TURNSCAN_ASSIGN(record3d::Metadata metadata, read_metadata(file, directory, budget, header));
   auto collected = collect(std::move(file), directory, budget,
                            std::max(metadata.poses.size(), metadata.times_s.size()), header);
   if (!collected) return at_path(path, std::move(collected).error());

@@ -68,11 +68,13 @@ std::optional<double> number_of(std::string_view name, std::string_view ending) 
 }
 
 Result<std::vector<RtabmapFrame>> list_rtabmap_frames(const fs::path& folder,
-                                                      const std::string& prefix) {
+                                                      const std::string& prefix,
+                                                      const RunContext& context) {
   const fs::path depth = folder / (prefix + "depth"), color = folder / (prefix + "rgb");
   TURNSCAN_ASSIGN(const std::vector<std::string> names, names_in(depth));
   std::vector<RtabmapFrame> frames;
   for (const std::string& name : names) {
+    TURNSCAN_TRY(context.check());
     const std::optional<double> number = number_of(name, ".png");
     if (!number) continue;
     RtabmapFrame& frame = frames.emplace_back();
@@ -110,7 +112,8 @@ Result<StampedPose> parse_pose_line(const std::vector<std::string_view>& words) 
 
 Result<std::vector<StampedPose>> read_camera_poses(const fs::path& folder,
                                                    const std::string& prefix,
-                                                   SequenceHeader& header) {
+                                                   SequenceHeader& header,
+                                                   const RunContext& context) {
   const fs::path path = folder / (prefix + "camera_poses.txt");
   std::vector<StampedPose> poses;
   TURNSCAN_ASSIGN(const bool there, file::is_there(path));
@@ -123,6 +126,7 @@ Result<std::vector<StampedPose>> read_camera_poses(const fs::path& folder,
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
   text::LineReader lines(text);
   while (const auto line = lines.next_content()) {
+    TURNSCAN_TRY(context.check());
     const auto pose = parse_pose_line(text::words_of(line->text));
     if (!pose)
       return fail_at(path.string(), ErrorCode::kFormat, "line {}: {}", line->number,
@@ -223,15 +227,17 @@ bool is_rtabmap_depth_folder(std::string_view name) {
   return name == kDepthFolder || name.ends_with("_depth");
 }
 
-OpenResult open_rtabmap(const fs::path& folder, const ImportOptions& options) {
+OpenResult open_rtabmap(const fs::path& folder, const ImportOptions& options,
+                        const RunContext& context) {
   SequenceHeader header;
   header.source = fmt::format("RTAB-Map export {}", display_name(folder));
   TURNSCAN_ASSIGN(const std::string prefix, prefix_in(folder));
-  TURNSCAN_ASSIGN(std::vector<RtabmapFrame> frames, list_rtabmap_frames(folder, prefix));
+  TURNSCAN_ASSIGN(std::vector<RtabmapFrame> frames, list_rtabmap_frames(folder, prefix, context));
   TURNSCAN_ASSIGN(SensorInfo sensor,
                   describe_rtabmap_sensor(folder / (prefix + "calib"), frames.front(), options));
   header.sensors.push_back(std::move(sensor));
-  TURNSCAN_ASSIGN(std::vector<StampedPose> poses, read_camera_poses(folder, prefix, header));
+  TURNSCAN_ASSIGN(std::vector<StampedPose> poses,
+                  read_camera_poses(folder, prefix, header, context));
   match_poses(std::move(poses), frames);
   TURNSCAN_TRY(place_rtabmap_frames(options, frames, header));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));

@@ -62,9 +62,9 @@ class AppSequence : public FrameSequence {
   std::uint8_t least_;
 };
 
-Result<> parse_app_frame(const fs::path& path, AppFrame& frame) {
+Result<> parse_app_frame(const fs::path& path, AppFrame& frame, const RunContext& context) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
-  TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
+  TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text, context));
   TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(json, text));
   TURNSCAN_ASSIGN(const std::vector<double> k, root.numbers("intrinsics"));
   if (k.size() != 9) return fail(ErrorCode::kFormat, "intrinsics has {} numbers, not 9", k.size());
@@ -82,11 +82,12 @@ Result<> parse_app_frame(const fs::path& path, AppFrame& frame) {
 }
 
 /// Frames with depth, sorted by their numbers, which are in info.index.
-Result<std::vector<AppFrame>> list_app_frames(const fs::path& folder) {
+Result<std::vector<AppFrame>> list_app_frames(const fs::path& folder, const RunContext& context) {
   TURNSCAN_ASSIGN(const std::vector<std::string> list, names_in(folder));
   const std::set<std::string, std::less<>> names(list.begin(), list.end());
   std::vector<AppFrame> frames;
   for (const std::string& name : list) {
+    TURNSCAN_TRY(context.check());
     if (!is_scanner_app_frame(name)) continue;
     const std::string number = name.substr(6, name.size() - 11);
     const std::string depth = fmt::format("depth_{}.png", number),
@@ -99,7 +100,7 @@ Result<std::vector<AppFrame>> list_app_frames(const fs::path& folder) {
     frame.depth = folder / depth;
     if (names.contains(confidence)) frame.confidence = folder / confidence;
     if (names.contains(color)) frame.color = folder / color;
-    if (auto good = parse_app_frame(folder / name, frame); !good)
+    if (auto good = parse_app_frame(folder / name, frame, context); !good)
       return at_path(folder / name, std::move(good).error());
   }
   if (frames.empty())
@@ -182,10 +183,11 @@ bool is_scanner_app_frame(std::string_view name) {
          std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-OpenResult open_scanner_app(const fs::path& folder, const ImportOptions& options) {
+OpenResult open_scanner_app(const fs::path& folder, const ImportOptions& options,
+                            const RunContext& context) {
   SequenceHeader header;
   header.source = fmt::format("3D Scanner App export {}", display_name(folder));
-  TURNSCAN_ASSIGN(std::vector<AppFrame> frames, list_app_frames(folder));
+  TURNSCAN_ASSIGN(std::vector<AppFrame> frames, list_app_frames(folder, context));
   TURNSCAN_ASSIGN(SensorInfo sensor, describe_app_sensor(frames, header));
   header.sensors.push_back(std::move(sensor));
   TURNSCAN_TRY(place_app_frames(options, frames, header));

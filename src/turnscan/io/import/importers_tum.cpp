@@ -35,11 +35,12 @@ struct TimedPose {
 /// Calls parse(words) for each line and sorts what it returns by time.
 template <class Entry, class Parse>
 Result<std::vector<Entry>> read_list(const fs::path& path, std::size_t word_count,
-                                     const Parse& parse) {
+                                     const RunContext& context, const Parse& parse) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
   std::vector<Entry> entries;
   text::LineReader lines(text);
   while (const auto line = lines.next_content()) {
+    TURNSCAN_TRY(context.check());
     const auto words = text::words_of(line->text);
     auto entry = words.size() == word_count
                      ? parse(words)
@@ -138,28 +139,30 @@ Result<CameraIntrinsics> intrinsics_of(const fs::path& folder, const ImportOptio
                  "freiburg1, freiburg2, freiburg3; state them: --intrinsics fx,fy,cx,cy");
 }
 
-Result<std::vector<TimedPose>> read_poses(const fs::path& folder) {
+Result<std::vector<TimedPose>> read_poses(const fs::path& folder, const RunContext& context) {
   const fs::path path = folder / "groundtruth.txt";
   TURNSCAN_ASSIGN(const bool there, file::is_there(path));
   if (!there) return std::vector<TimedPose>();
-  return read_list<TimedPose>(path, 8, parse_tum_pose);
+  return read_list<TimedPose>(path, 8, context, parse_tum_pose);
 }
 
-Result<std::vector<TimedFile>> read_color_list(const fs::path& folder) {
+Result<std::vector<TimedFile>> read_color_list(const fs::path& folder, const RunContext& context) {
   const fs::path path = folder / "rgb.txt";
   TURNSCAN_ASSIGN(const bool there, file::is_there(path));
   if (!there) return std::vector<TimedFile>();
-  return read_list<TimedFile>(path, 2, parse_file);
+  return read_list<TimedFile>(path, 2, context, parse_file);
 }
 
 Result<std::vector<ForeignFrame>> list_frames(const fs::path& folder, const ImportOptions& options,
-                                              SequenceHeader& header) {
-  TURNSCAN_ASSIGN(const auto depths, read_list<TimedFile>(folder / "depth.txt", 2, parse_file));
-  TURNSCAN_ASSIGN(const auto colors, read_color_list(folder));
-  TURNSCAN_ASSIGN(const auto poses, read_poses(folder));
+                                              SequenceHeader& header, const RunContext& context) {
+  TURNSCAN_ASSIGN(const auto depths,
+                  read_list<TimedFile>(folder / "depth.txt", 2, context, parse_file));
+  TURNSCAN_ASSIGN(const auto colors, read_color_list(folder, context));
+  TURNSCAN_ASSIGN(const auto poses, read_poses(folder, context));
   std::vector<ForeignFrame> frames;
   std::size_t unplaced = 0;
   for (const TimedFile& depth : depths) {
+    TURNSCAN_TRY(context.check());
     ForeignFrame frame;
     frame.info.index = static_cast<std::uint32_t>(frames.size());
     frame.info.time_s = depth.time_s;
@@ -185,7 +188,8 @@ Result<std::vector<ForeignFrame>> list_frames(const fs::path& folder, const Impo
 
 }  // namespace
 
-OpenResult open_tum(const fs::path& folder, const ImportOptions& options) {
+OpenResult open_tum(const fs::path& folder, const ImportOptions& options,
+                    const RunContext& context) {
   SequenceHeader header;
   header.source = fmt::format("TUM RGB-D folder {}", display_name(folder));
   SensorInfo sensor;
@@ -198,7 +202,7 @@ OpenResult open_tum(const fs::path& folder, const ImportOptions& options) {
              "depth images have 5000 steps a metre, as the benchmark defines for its Kinects");
   }
   header.sensors.push_back(sensor);
-  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, list_frames(folder, options, header));
+  TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames, list_frames(folder, options, header, context));
   TURNSCAN_TRY(apply_iai_kinect2(options, frames, header));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));

@@ -24,12 +24,13 @@ constexpr std::uint32_t kMaxBopImage = 1000000;
 
 /// The members of a JSON object by their names, which are numbers of images.
 template <class Take>
-Result<> for_each_image(const fs::path& path, const Take& take) {
+Result<> for_each_image(const fs::path& path, const RunContext& context, const Take& take) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
   const auto read = [&]() -> Result<> {
-    TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
+    TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text, context));
     TURNSCAN_TRY(JsonObject::from(json, text));
     for (const auto& [name, value] : json.items()) {
+      TURNSCAN_TRY(context.check());
       TURNSCAN_ASSIGN(const std::uint32_t number, text::parse_index(name, kMaxBopImage));
       TURNSCAN_TRY(take(number, value, text::JsonPlace{name, text}));
     }
@@ -58,10 +59,12 @@ struct BopImage {
 };
 using BopImages = std::map<std::uint32_t, BopImage>;
 
-Result<BopImages> read_bop_cameras(const fs::path& path, const ImportOptions& options) {
+Result<BopImages> read_bop_cameras(const fs::path& path, const ImportOptions& options,
+                                   const RunContext& context) {
   BopImages out;
   TURNSCAN_TRY(for_each_image(
-      path, [&](std::uint32_t number, const text::Json& value, text::JsonPlace place) -> Result<> {
+      path, context,
+      [&](std::uint32_t number, const text::Json& value, text::JsonPlace place) -> Result<> {
         TURNSCAN_ASSIGN(const JsonObject object, JsonObject::from(value, std::move(place)));
         TURNSCAN_ASSIGN(const std::vector<double> k, object.numbers("cam_K"));
         if (k.size() != 9) return fail(ErrorCode::kFormat, "cam_K has {} numbers, not 9", k.size());
@@ -87,11 +90,11 @@ bool all_placed(const BopImages& images) {
 }
 
 /// Places the images by the one object that they show, if they all show the same one.
-Result<> place_by_object(const fs::path& path, BopImages& images) {
+Result<> place_by_object(const fs::path& path, BopImages& images, const RunContext& context) {
   for (auto& [number, image] : images) image.T_camera_place.reset();
   std::optional<double> object_id;
   TURNSCAN_TRY(for_each_image(
-      path,
+      path, context,
       [&](std::uint32_t number, const text::Json& value, const text::JsonPlace& place) -> Result<> {
         const auto image = images.find(number);
         if (image == images.end()) return {};
@@ -149,12 +152,14 @@ Result<> take_masks(const fs::path& folder, std::vector<ForeignFrame>& frames,
 
 Result<std::vector<ForeignFrame>> list_bop_frames(const fs::path& folder, BopImages& images,
                                                   const ImportOptions& options,
-                                                  SequenceHeader& header) {
+                                                  SequenceHeader& header,
+                                                  const RunContext& context) {
   std::vector<ForeignFrame> frames;
   std::vector<std::optional<Pose>> poses;
   SceneSensors sensors;
   std::optional<std::pair<int, int>> size;
   for (auto& [number, image] : images) {
+    TURNSCAN_TRY(context.check());
     ForeignFrame& frame = frames.emplace_back();
     frame.info.index = number;
     frame.info.file = fmt::format("depth/{:06}.png", number);
@@ -175,16 +180,18 @@ Result<std::vector<ForeignFrame>> list_bop_frames(const fs::path& folder, BopIma
 
 }  // namespace
 
-OpenResult open_bop(const fs::path& folder, const ImportOptions& options) {
+OpenResult open_bop(const fs::path& folder, const ImportOptions& options,
+                    const RunContext& context) {
   SequenceHeader header;
   header.source = fmt::format("BOP scene {}", display_name(folder));
-  TURNSCAN_ASSIGN(BopImages images, read_bop_cameras(folder / "scene_camera.json", options));
+  TURNSCAN_ASSIGN(BopImages images,
+                  read_bop_cameras(folder / "scene_camera.json", options, context));
   if (!all_placed(images)) {
-    TURNSCAN_TRY(place_by_object(folder / "scene_gt.json", images));
+    TURNSCAN_TRY(place_by_object(folder / "scene_gt.json", images, context));
     add_note(header, "the frames are placed by the object's pose in scene_gt.json");
   }
   TURNSCAN_ASSIGN(std::vector<ForeignFrame> frames,
-                  list_bop_frames(folder, images, options, header));
+                  list_bop_frames(folder, images, options, header, context));
   TURNSCAN_TRY(take_masks(folder, frames, header));
   TURNSCAN_TRY(look_at_first_images(header, frames));
   TURNSCAN_TRY(apply_turntable_options(options, true, header));

@@ -19,7 +19,6 @@ using text::JsonObject;
 namespace {
 
 constexpr double kNerfstudioStep = 1e-3;  // metres
-constexpr std::size_t kMaxNerfstudioFrames = 1000000;
 
 /// A field of the frame, or of all frames.
 class NerfstudioFields {
@@ -66,10 +65,8 @@ class NerfstudioReader {
   NerfstudioReader(const JsonObject& root, const ImportOptions& options, const fs::path& folder)
       : root_(root), options_(options), folder_(folder) {}
 
-  Result<NerfstudioScene> read(SequenceHeader& header) {
+  Result<NerfstudioScene> read(SequenceHeader& header, const RunContext& context) {
     TURNSCAN_ASSIGN(const std::vector<JsonObject> frames, root_.objects("frames"));
-    if (frames.size() > kMaxNerfstudioFrames)
-      return fail(ErrorCode::kResourceLimit, "there are more than {} frames", kMaxNerfstudioFrames);
     TURNSCAN_ASSIGN(unit_m_, root_.number_or("depth_unit_scale_factor", kNerfstudioStep));
     TURNSCAN_ASSIGN(unit_m_, depth_scale(options_, unit_m_));
     TURNSCAN_ASSIGN(const double scale, root_.number_or("applied_scale", 1.0));
@@ -79,6 +76,7 @@ class NerfstudioReader {
                   scale);
     NerfstudioScene out;
     for (const JsonObject& frame : frames) {
+      TURNSCAN_TRY(context.check());
       if (!frame.has("depth_file_path")) continue;
       TURNSCAN_ASSIGN(ForeignFrame read, read_frame(frame));
       read.info.index = std::uint32_t(out.frames.size());
@@ -136,7 +134,8 @@ class NerfstudioReader {
 
 }  // namespace
 
-OpenResult open_nerfstudio(const fs::path& path, const ImportOptions& options) {
+OpenResult open_nerfstudio(const fs::path& path, const ImportOptions& options,
+                           const RunContext& context) {
   std::error_code error;
   const fs::path file = fs::is_directory(path, error) ? path / "transforms.json" : path;
   const fs::path folder = file.parent_path();
@@ -146,9 +145,9 @@ OpenResult open_nerfstudio(const fs::path& path, const ImportOptions& options) {
   ImportOptions placing = options;
   if (placing.world_up.empty()) placing.world_up = "0,0,1";
   auto scene = [&]() -> Result<NerfstudioScene> {
-    TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text));
+    TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text, context));
     TURNSCAN_ASSIGN(const JsonObject root, JsonObject::from(json, text));
-    return NerfstudioReader(root, options, folder).read(header);
+    return NerfstudioReader(root, options, folder).read(header, context);
   }();
   if (!scene) return at_path(file, std::move(scene).error());
   TURNSCAN_TRY(settle_device_poses(placing, scene->poses, header));

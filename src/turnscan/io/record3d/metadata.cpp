@@ -87,8 +87,8 @@ Result<std::vector<std::optional<Pose>>> parse_poses(const text::JsonObject& roo
 
 }  // namespace
 
-Result<Metadata> parse_metadata(std::string_view json) {
-  TURNSCAN_ASSIGN(const text::Json value, text::parse_json(json));
+Result<Metadata> parse_metadata(std::string_view json, const file::ReadBudget& budget) {
+  TURNSCAN_ASSIGN(const text::Json value, text::parse_json(json, budget));
   TURNSCAN_ASSIGN(const text::JsonObject root, text::JsonObject::from(value));
   Metadata out;
   TURNSCAN_TRY(parse_camera(root, out));

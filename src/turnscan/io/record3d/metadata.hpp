@@ -7,6 +7,7 @@
 #include <turnscan/core/camera.hpp>
 #include <turnscan/core/pose.hpp>
 #include <turnscan/core/result.hpp>
+#include <turnscan/io/file/read_budget.hpp>
 #include <vector>
 
 namespace turnscan::record3d {
@@ -24,7 +25,7 @@ struct Metadata {
   std::vector<std::optional<Pose>> poses;
 };
 
-/// Fails with kFormat if a field is missing or wrong.
-Result<Metadata> parse_metadata(std::string_view json);
+/// Fails with kFormat if a field is missing or wrong, and as the budget of the archive.
+Result<Metadata> parse_metadata(std::string_view json, const file::ReadBudget& budget);
 
 }  // namespace turnscan::record3d

@@ -4,14 +4,16 @@
 #include <string>
 #include <string_view>
 #include <turnscan/core/result.hpp>
+#include <turnscan/io/file/read_budget.hpp>
 
 namespace turnscan::text {
 
 /// Deeper nesting is rejected: the parser's value is destroyed and printed recursively.
 inline constexpr int kMaxJsonDepth = 64;
 
-/// Fails with kFormat, naming the line, if lists and objects are nested deeper than kMaxJsonDepth.
-Result<> check_json_depth(std::string_view text);
+/// Fails with kFormat, naming the line, if lists and objects are nested deeper than kMaxJsonDepth,
+/// and as the budget does, which is charged for the memory that the parsed value will take.
+Result<> check_json_shape(std::string_view text, const file::ReadBudget& budget);
 
 /// "line 3, column 14" of the byte at an offset, both counted from 1, for error messages.
 std::string line_and_column(std::string_view text, std::size_t offset);

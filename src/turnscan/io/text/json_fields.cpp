@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <turnscan/io/text/json_bytes.hpp>
 #include <turnscan/io/text/json_fields.hpp>
@@ -9,6 +11,7 @@ namespace turnscan::text {
 
 namespace {
 
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kBrown = 5;  // coefficients without the rational model's denominator
 
 Result<double> finite_number(const Json& value, const JsonPlace& place) {
@@ -21,8 +24,11 @@ Result<double> finite_number(const Json& value, const JsonPlace& place) {
 Result<> append_numbers(const Json& value, const JsonPlace& place, std::vector<double>& out) {
   if (!value.is_array())
     return fail(ErrorCode::kFormat, "{} is not a list of numbers", place.shown());
+  out.reserve(out.size() + value.size());
   for (std::size_t i = 0; i < value.size(); ++i) {
-    TURNSCAN_ASSIGN(const double number, finite_number(value[i], place.element(i)));
+    const double number = value[i].is_number() ? value[i].get<double>() : kNoNumber;
+    // The place is named only where it is needed: a list may have millions of numbers.
+    if (!std::isfinite(number)) TURNSCAN_TRY(finite_number(value[i], place.element(i)));
     out.push_back(number);
   }
   return {};
@@ -56,27 +62,60 @@ std::size_t begin_of_token(std::string_view text, std::size_t last) {
   return i;
 }
 
-/// The parser's error message for a text that is not JSON, preceded by the position.
-std::string syntax_error_of(std::string_view text) {
-  try {
-    const Json ignored = Json::parse(text.begin(), text.end());
-  } catch (const Json::parse_error& error) {
-    // "[...] parse error at line 1, column 8: syntax error while parsing object - unexpected X;
-    // last read: 'Y'; expected Z"
-    std::string said = error.what();
-    if (const auto dash = said.rfind(" - "); dash != std::string::npos) said.erase(0, dash + 3);
-    const auto read = said.find("; last read: "), expected = said.rfind("; expected ");
-    if (read != std::string::npos)
-      said.erase(
-          read, (expected != std::string::npos && expected > read ? expected : said.size()) - read);
-    std::replace(said.begin(), said.end(), ';', ',');
-    return fmt::format(
-        "{}: {}", line_and_column(text, begin_of_token(text, error.byte > 0 ? error.byte - 1 : 0)),
-        said);
-  } catch (const Json::exception&) {
-    return "a number is too large";
+/// The bytes of a text for the parser. They end early once the reading is cancelled.
+class TextBytes {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  TextBytes(const char* at, const char* end, const file::ReadBudget& budget)
+      : at_(at), end_(end), budget_(&budget) {}
+  reference operator*() const { return *at_; }
+  TextBytes& operator++() {
+    ++at_;
+    if ((++passed_ & kBetweenLooks) == 0 && !budget_->state()) at_ = end_;
+    return *this;
   }
-  return {};
+  bool operator==(const TextBytes& other) const { return at_ == other.at_; }
+  bool operator!=(const TextBytes& other) const { return at_ != other.at_; }
+
+ private:
+  static constexpr std::size_t kBetweenLooks = 0xffff;  // bytes
+  const char *at_, *end_;
+  const file::ReadBudget* budget_;
+  std::size_t passed_ = 0;
+};
+
+/// The parser's error message, preceded by the position.
+std::string syntax_error_of(std::string_view text, const Json::parse_error& error) {
+  // "[...] parse error at line 1, column 8: syntax error while parsing object - unexpected X;
+  // last read: 'Y'; expected Z"
+  std::string said = error.what();
+  if (const auto dash = said.rfind(" - "); dash != std::string::npos) said.erase(0, dash + 3);
+  const auto read = said.find("; last read: "), expected = said.rfind("; expected ");
+  if (read != std::string::npos)
+    said.erase(read,
+               (expected != std::string::npos && expected > read ? expected : said.size()) - read);
+  std::replace(said.begin(), said.end(), ';', ',');
+  return fmt::format(
+      "{}: {}", line_and_column(text, begin_of_token(text, error.byte > 0 ? error.byte - 1 : 0)),
+      said);
+}
+
+/// The value, or why the text is not JSON; either may be wrong when cancelled.
+Result<Json> parsed(std::string_view text, const file::ReadBudget& budget) {
+  const char *begin = text.data(), *end = begin + text.size();
+  std::string why = "a number is too large";
+  try {
+    return Json::parse(TextBytes(begin, end, budget), TextBytes(end, end, budget));
+  } catch (const Json::parse_error& error) {
+    why = syntax_error_of(text, error);
+  } catch (const Json::exception&) {
+  }
+  return fail(ErrorCode::kFormat, "not valid JSON: {}", why);
 }
 
 bool holds_objects(const OrderedJson& value) {
@@ -109,14 +148,17 @@ void write(const OrderedJson& value, const std::string& indent, std::string& out
 
 }  // namespace
 
-Result<Json> parse_json(std::string_view text) {
-  TURNSCAN_TRY(check_json_depth(text));
+Result<Json> parse_json(std::string_view text, const RunContext& context) {
+  return parse_json(text, file::ReadBudget(text.size(), context));
+}
+
+Result<Json> parse_json(std::string_view text, const file::ReadBudget& budget) {
+  TURNSCAN_TRY(check_json_shape(text, budget));
   // The parser treats a zero byte as the end, and does not read what follows.
   if (text.find('\0') != std::string_view::npos)
     return fail(ErrorCode::kFormat, "not valid JSON: it holds a zero byte");
-  Json value = Json::parse(text.begin(), text.end(), nullptr, false);
-  if (value.is_discarded())
-    return fail(ErrorCode::kFormat, "not valid JSON: {}", syntax_error_of(text));
+  auto value = parsed(text, budget);
+  TURNSCAN_TRY(budget.state());
   return value;
 }
 
@@ -241,7 +283,11 @@ Result<JsonObject> JsonObject::object(const char* key) const {
 Result<std::vector<JsonObject>> JsonObject::objects(const char* key) const {
   TURNSCAN_ASSIGN(const Json* value, require(key));
   if (!value->is_array()) return fail(ErrorCode::kFormat, "{} is not a list", place_of(key));
+  if (value->size() > kMaxJsonObjects)
+    return fail(ErrorCode::kResourceLimit, "{} has more than {} entries", place_of(key),
+                kMaxJsonObjects);
   std::vector<JsonObject> out;
+  out.reserve(value->size());
   for (std::size_t i = 0; i < value->size(); ++i) {
     TURNSCAN_ASSIGN(JsonObject object, from((*value)[i], place_.member(key).element(i)));
     out.push_back(std::move(object));

@@ -9,6 +9,8 @@
 #include <turnscan/core/camera.hpp>
 #include <turnscan/core/pose.hpp>
 #include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
+#include <turnscan/io/file/read_budget.hpp>
 #include <vector>
 
 namespace turnscan::text {
@@ -18,6 +20,9 @@ using Json = nlohmann::json;
 /// Begin with OrderedJson::object() or array(): a null value that [] or push_back() converts is
 /// left unusable, even by its destructor, if memory runs out (version 3.11).
 using OrderedJson = nlohmann::ordered_json;
+
+/// In a list that is read as JsonObject::objects().
+inline constexpr std::size_t kMaxJsonObjects = 1000000;
 
 /// Location of a value: its path, e.g. "sensors[0].intrinsics", in the text that it was parsed
 /// from. Keeps a reference to the text, if there is one.
@@ -55,6 +60,7 @@ class JsonObject {
   Result<Pose> pose(const char* key) const;  ///< 16 numbers or four rows of four
   Result<std::vector<Pose>> poses(const char* key) const;
   Result<JsonObject> object(const char* key) const;
+  /// Fails with kResourceLimit beyond kMaxJsonObjects, too.
   Result<std::vector<JsonObject>> objects(const char* key) const;
 
  private:
@@ -65,8 +71,11 @@ class JsonObject {
   JsonPlace place_;
 };
 
-/// Fails with kFormat, naming line and column, if text is not JSON, or as check_json_depth().
-Result<Json> parse_json(std::string_view text);
+/// Fails with kFormat, naming line and column, if text is not JSON, and as check_json_shape(). The
+/// budget is that of the file which holds the text.
+Result<Json> parse_json(std::string_view text, const file::ReadBudget& budget);
+/// The same for a text that is the whole file.
+Result<Json> parse_json(std::string_view text, const RunContext& context = RunContext());
 
 /// width, height, fx, fy, cx, cy and optionally distortion (k1 k2 p1 p2 k3, and k4 k5 k6); checked.
 Result<CameraIntrinsics> intrinsics_from_json(const JsonObject& object);

@@ -80,6 +80,8 @@ std::vector<std::string_view> words_of(std::string_view text) {
 
 Result<std::vector<std::string>> csv_fields(std::string_view line, char delimiter) {
   std::vector<std::string> fields;
+  const auto delimiters = std::size_t(std::count(line.begin(), line.end(), delimiter));
+  fields.reserve(std::min(delimiters + 1, kMaxFields));
   for (;;) {
     TURNSCAN_ASSIGN(std::string field, take_field(line, delimiter));
     fields.push_back(std::move(field));
@@ -147,10 +149,13 @@ Result<std::vector<double>> parse_numbers(std::string_view text, std::size_t cou
 }
 
 Result<> check_inside(std::string_view name) {
-  const std::filesystem::path path(name);
-  const bool climbs =
-      std::any_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
-  if (name.empty() || path.is_absolute() || climbs || name.find('\0') != std::string_view::npos)
+  bool climbs = false;
+  for (std::size_t begin = 0; begin < name.size();) {
+    const std::size_t end = std::min(name.find('/', begin), name.size());
+    climbs = climbs || name.substr(begin, end - begin) == "..";
+    begin = end + 1;
+  }
+  if (name.empty() || name.front() == '/' || climbs || name.find('\0') != std::string_view::npos)
     return fail(ErrorCode::kFormat, "'{}' does not name a file inside the folder", name);
   return {};
 }

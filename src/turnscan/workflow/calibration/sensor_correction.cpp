@@ -33,7 +33,7 @@ Result<DepthCorrection> depth_from_gauge(const FrameSequence& recording, const C
                                          const RunContext& context) {
   TURNSCAN_ASSIGN(const DepthGauge here, gauge(recording, sensor, request, context));
   if (!request.depth_also.empty()) {
-    TURNSCAN_ASSIGN(const Recording opened, Recording::open(request.depth_also));
+    TURNSCAN_ASSIGN(const Recording opened, Recording::open(request.depth_also, context));
     TURNSCAN_ASSIGN(const SequenceView also, corrected_sequence(opened, cameras));
     if (also.header().sensors.size() != recording.header().sensors.size())
       return fail(ErrorCode::kInvalidOption,

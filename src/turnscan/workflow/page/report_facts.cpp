@@ -133,7 +133,7 @@ void read_reconstruction(const Json& json, ReportFacts& facts) {
 Result<ReportFacts> facts_of(const std::string& report) {
   ReportFacts facts;
   if (report.empty()) return facts;
-  TURNSCAN_TRY(text::check_json_depth(report));
+  TURNSCAN_TRY(text::check_json_shape(report, file::ReadBudget(report.size())));
   const Json json = Json::parse(report, nullptr, false);
   if (!json.is_object())
     return fail(ErrorCode::kFormat,

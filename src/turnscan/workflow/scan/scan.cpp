@@ -122,7 +122,7 @@ class ScanRun {
 
   /// Makes the mesh first, then the results derived from it.
   Result<> reconstruct_first(const SourceInfo& info, const AfterClock& after) {
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording, context_));
     auto placed = make_first_meshes(recording, after);
     TURNSCAN_ASSIGN(auto findings, find_implausible(recording, context_));
     if (!placed)
@@ -324,7 +324,8 @@ class ScanRun {
     const AfterClock after;
     source.stop();
     TURNSCAN_TRY(capture_outcome(out_.captured.back(), out_.recording));
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(out_.recording));
+    TURNSCAN_ASSIGN(const Recording recording,
+                    with_hint(Recording::open(out_.recording, context_)));
     const std::vector<std::string> before = std::move(out_.files);
     const auto write_joined = [&](const ReconstructRun& run) -> Result<> {
       TURNSCAN_TRY(write_passes(run, before));

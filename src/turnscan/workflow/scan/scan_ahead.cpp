@@ -41,8 +41,7 @@ struct ScanAhead::Parts {
   /// Waits until the frames are in the recording.
   Result<Recording> open_first() const {
     for (;;) {
-      TURNSCAN_TRY(quiet.check());
-      TURNSCAN_ASSIGN(Recording recording, Recording::open(folder));
+      TURNSCAN_ASSIGN(Recording recording, Recording::open(folder, quiet));
       if (recording.frames().size() >= first) return recording;
       std::this_thread::sleep_for(20ms);
     }
@@ -69,7 +68,7 @@ struct ScanAhead::Parts {
 
   /// Extends calibration and stream to the end of the recording, if they fit it.
   Result<> complete(Begun& ahead, Outcome& out, const RunContext& context) const {
-    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder));
+    TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder, context));
     TURNSCAN_ASSIGN(ContinuedMotion all,
                     continue_motion(recording, ahead.calibration, {}, context));
     TURNSCAN_ASSIGN(const auto calibrated, with_calibration(recording, all.calibration));
