@@ -383,10 +383,11 @@ class OutOfProportion(harness.TestCase):
                      self.chunk(b"".join(self.image(k, k // 1000 + 1) for k in numbers)))
         self.cheap("a.bag", "--import", "intrinsics=2,2,1,1", says="out of all proportion")
 
-    def put_r3d(self, side, entries=()):
+    def put_r3d(self, side, entries=(), description=()):
         with zipfile.ZipFile(self.dir / "a.r3d", "w", zipfile.ZIP_DEFLATED) as file:
             file.writestr("metadata", json.dumps({"w": side, "h": side, "dw": side, "dh": side, "fps": 60,
-                                                  "K": [500, 0, 0, 0, 500, 0, side / 2, side / 2, 1]}))
+                                                  "K": [500, 0, 0, 0, 500, 0, side / 2, side / 2, 1],
+                                                  **dict(description)}))
             file.writestr("rgbd/0.depth", "x")
             for name in entries:
                 file.writestr(name, "x")
@@ -413,6 +414,20 @@ class OutOfProportion(harness.TestCase):
     def test_an_archive_of_frames_that_are_none(self):
         self.put_r3d(192, (f"rgbd/{k}.depth" for k in range(1, 9000)))
         self.cheap("a.r3d", says="out of all proportion")
+
+    def test_a_description_of_a_phone_that_unpacks_to_gigabytes(self):
+        # 30 KB, 16 MB of text, half a gigabyte of values.
+        self.put_r3d(192, description={"poses": [[]] * 4000000})
+        self.cheap("a.r3d", says="out of all proportion")
+
+    def test_a_description_of_frames_that_are_empty(self):
+        (self.dir / "transforms.json").write_text(json.dumps({"frames": [{}] * 3000000}))
+        self.cheap(".", says="out of all proportion")
+
+    def test_a_list_of_frames_without_number(self):
+        (self.dir / "depth.txt").write_text("".join(f"{k} d.png\n" for k in range(900000)))
+        (self.dir / "d.png").write_bytes(png16(4, 3, 1000))
+        self.cheap(".", "--import", "intrinsics=500,500,2,1", says="more than 100000 frames")
 
     def put_glb(self, nodes, primitives, vertices):
         data = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) * (vertices // 3)
@@ -548,6 +563,25 @@ class Term(harness.TestCase):
         mesh = self.input_folder() / "m.ply"
         self.ok("reconstruct", shared_recording(), "-o", mesh, "--quiet")
         self.every_moment("evaluate", mesh, "--reference", mesh, "--error-map", "e.ply")
+
+    def test_open_a_recording_of_many_frames(self):
+        recording = self.input_folder() / "r"
+        recordings.copy(recordings.folder_of("three-frames"), recording)
+        (recording / "frames.csv").write_text(
+            "index,time_s,file\n" + "".join(f"{k},{k},depth/000000.png\n" for k in range(300000)))
+        self.every_moment("info", recording)
+
+    def test_look_at_a_mesh_of_a_million_triangles(self):
+        mesh = self.input_folder() / "m.ply"
+        n = 800
+        rows = [struct.pack("<3f", x, y, (x * 7 + y * 11) % 5) for y in range(n) for x in range(n)]
+        faces = [struct.pack("<B3iB3i", 3, k, k + 1, k + n, 3, k + 1, k + n + 1, k + n)
+                 for k in range(n * (n - 1)) if k % n != n - 1]
+        head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {n * n}\nproperty float x\n"
+                f"property float y\nproperty float z\nelement face {2 * len(faces)}\n"
+                "property list uchar int vertex_indices\nend_header\n")
+        mesh.write_bytes(head.encode() + b"".join(rows) + b"".join(faces))
+        self.every_moment("info", mesh, "--unit", "mm")
 
     def test_render(self):
         self.every_moment("demo", "--object", "cylinder", "--frames", "12", "--picture-size", "256", "--out", "d")

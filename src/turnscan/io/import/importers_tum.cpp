@@ -17,9 +17,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kMaxTimeDifference = 0.02;  // seconds
-constexpr double kDepthUnit = 1.0 / 5000.0;  // metres
-constexpr std::size_t kMaxEntries = 1000000;
+constexpr double kMaxTimeDifference = 0.02;   // seconds
+constexpr double kDepthUnit = 1.0 / 5000.0;   // metres
+constexpr std::size_t kMaxEntries = 1000000;  // of poses, a hundred times a second and more
+constexpr std::size_t kMaxTumFrames = 100000;
 
 struct TimedFile {
   double time_s = 0.0;
@@ -157,6 +158,9 @@ Result<std::vector<ForeignFrame>> list_frames(const fs::path& folder, const Impo
                                               SequenceHeader& header, const RunContext& context) {
   TURNSCAN_ASSIGN(const auto depths,
                   read_list<TimedFile>(folder / "depth.txt", 2, context, parse_file));
+  if (depths.size() > kMaxTumFrames)
+    return fail_at((folder / "depth.txt").string(), ErrorCode::kResourceLimit,
+                   "there are more than {} frames", kMaxTumFrames);
   TURNSCAN_ASSIGN(const auto colors, read_color_list(folder, context));
   TURNSCAN_ASSIGN(const auto poses, read_poses(folder, context));
   std::vector<ForeignFrame> frames;
