@@ -155,8 +155,11 @@ TEST_F(Simulator, ASweepPlotsTheCoverageAndPlacesTheScannerAtItsBest) {
   ASSERT_TRUE(type(named(*sweep, "sweep_values"), "20"));
   ASSERT_TRUE(click(button_with(*sweep, "Sweep")));
   const QString problem = sweep->findChild<QLabel*>("error")->text();
-  EXPECT_TRUE(problem.contains("from..to/step") && !problem.contains("--sweep"))
-      << problem.toStdString();
+  EXPECT_TRUE(problem.contains("from..to/step")) << problem.toStdString();
+  ASSERT_TRUE(type(named(*sweep, "sweep_values"), "20..-20/10"));
+  ASSERT_TRUE(click(button_with(*sweep, "Sweep")));
+  const QString refused = sweep->findChild<QLabel*>("error")->text();
+  EXPECT_TRUE(refused.startsWith("tilt: 20deg")) << refused.toStdString();
   EXPECT_TRUE(crowded(window).empty());
 }
 

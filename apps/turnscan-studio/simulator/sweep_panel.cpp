@@ -132,8 +132,7 @@ void SweepPanel::run() {
   auto scene = scene_();
   const auto range = scene.and_then(
       [&](const SceneDescription& made) { return parse_sweep_range(text.toStdString(), made); });
-  static const QRegularExpression flag("--sweep( [a-z]+)?: ");
-  error_->show_text(range ? QString() : QString::fromStdString(range.error().text()).remove(flag));
+  error_->show_text(range ? QString() : QString::fromStdString(range.error().text()));
   if (!range) return;
   jobs_.start(
       tr("Sweep"), this,

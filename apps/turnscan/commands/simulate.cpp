@@ -123,12 +123,13 @@ class SimulateCommand : public Command {
 
   Result<> sweep(Session& session) {
     TURNSCAN_TRY(check_output_file(plot_, ".svg"));
-    TURNSCAN_ASSIGN(const SweepRange range, parse_sweep_range(sweep_, request_.scene));
-    TURNSCAN_ASSIGN(const auto swept, sweep_coverage(request_.scene, range,
+    const auto range = parse_sweep_range(sweep_, request_.scene);
+    if (!range) return fail(ErrorCode::kInvalidOption, "--sweep: {}", range.error().message);
+    TURNSCAN_ASSIGN(const auto swept, sweep_coverage(request_.scene, *range,
                                                      request_.coverage_options, session.context()));
-    session.print("{}", sweep_text(range, swept));
+    session.print("{}", sweep_text(*range, swept));
     if (plot_.empty()) return {};
-    TURNSCAN_TRY(write_file_atomically(plot_, sweep_svg(range, swept)));
+    TURNSCAN_TRY(write_file_atomically(plot_, sweep_svg(*range, swept)));
     session.print("Wrote {}\n", plot_);
     return {};
   }

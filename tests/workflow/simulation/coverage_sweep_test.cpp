@@ -28,7 +28,11 @@ TEST(CoverageSweep, RefusesWhatIsNoRangeOfANumberOfTheScene) {
     const auto range = parse_sweep_range(text, {});
     ASSERT_FALSE(range) << text;
     EXPECT_EQ(range.error().code, ErrorCode::kInvalidOption) << text;
+    // A window has no such option.
+    EXPECT_EQ(range.error().text().find("--sweep"), std::string::npos) << range.error().text();
   }
+  for (const char* text : {"roll=wide..2deg/1deg", "roll=2deg..1deg/1deg"})
+    EXPECT_EQ(parse_sweep_range(text, {}).error().text().substr(0, 6), "roll: ") << text;
 }
 
 TEST(CoverageSweep, GivesTheCoverageOfEachValueAndNamesTheBest) {

@@ -37,15 +37,14 @@ Result<SweepRange> parse_sweep_range(const std::string& text, SceneDescription s
   std::size_t slash = dots == std::string::npos ? dots : text.find('/', dots);
   if (equals == std::string::npos || slash == std::string::npos || !(equals < dots))
     return fail(ErrorCode::kInvalidOption,
-                "--sweep: '{}' is not NAME=FROM..TO/STEP; write e.g. roll=-45deg..45deg/10deg",
-                text);
+                "'{}' is not NAME=FROM..TO/STEP; write e.g. roll=-45deg..45deg/10deg", text);
   SweepRange range;
   range.option = text.substr(0, equals);
   const std::vector<SceneTable> tables = describe(scene);
   const OptionField* field = find_field(tables, range.option);
   if (field == nullptr || !field->range)
     return fail(ErrorCode::kInvalidOption,
-                "--sweep: the scene has no number '{}'; 'turnscan simulate --help-all' lists its "
+                "the scene has no number '{}'; 'turnscan simulate --help-all' lists its "
                 "options",
                 range.option);
   range.quantity = field->quantity;
@@ -61,7 +60,7 @@ Result<SweepRange> parse_sweep_range(const std::string& text, SceneDescription s
   }
   const auto read = [&](std::size_t begin, std::size_t end) {
     auto value = parse_quantity(std::string_view(text).substr(begin, end - begin), range.quantity);
-    if (!value) value.error().message = "--sweep " + range.option + ": " + value.error().message;
+    if (!value) value.error().message = range.option + ": " + value.error().message;
     return value;
   };
   TURNSCAN_ASSIGN(const double from, read(equals + 1, dots));
@@ -71,9 +70,8 @@ Result<SweepRange> parse_sweep_range(const std::string& text, SceneDescription s
   const double steps = std::floor((to - from) / step + 1e-9);
   if (!(step > 0.0) || !(steps >= 0.0) || steps >= kMostValues)
     return fail(ErrorCode::kInvalidOption,
-                "--sweep: '{}' does not give 1 to {:.0f} values; give FROM <= TO and a STEP above "
-                "0",
-                text, kMostValues);
+                "{}: {} does not give 1 to {:.0f} values; give FROM <= TO and a STEP above 0",
+                range.option, text.substr(equals + 1), kMostValues);
   for (int i = 0; i <= int(steps); ++i) {
     const double value = from + i * step;
     range.values.push_back(std::abs(value) < 1e-9 * step ? 0.0 : value);  // not 1e-15deg

@@ -16,7 +16,7 @@ struct SweepRange {
 
 /// "roll=-45deg..45deg/10deg": from, to, step. Fails with kInvalidOption for an option that the
 /// scene does not have or that is no number, a step that is not positive, and more than 1000
-/// values.
+/// values; the error names the option of the scene.
 Result<SweepRange> parse_sweep_range(const std::string& text, SceneDescription scene);
 
 struct SweptCoverage {
