@@ -16,6 +16,7 @@
 #include "explorer/inspection/section_panel.hpp"
 #include "explorer/inspection/tool_buttons.hpp"
 #include "explorer/loading.hpp"
+#include "explorer/looking/frame_panel.hpp"
 #include "explorer/looking/look_panel.hpp"
 #include "explorer/looking/voxel_panel.hpp"
 #include "explorer/model_list.hpp"
@@ -59,6 +60,8 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       verdict_(new VerdictPanel(this)),
       look_(new LookPanel(view(), *store_, this)),
       voxels_(new VoxelPanel(*store_, this)),
+      frames_(new FramePanel(this)),
+      frames_section_(section_with(frames_, tr("Frames"), true, this)),
       voxels_section_(section_with(voxels_, tr("Voxels"), true, this)),
       verdict_section_(section_with(verdict_, tr("Verdict"), true, this)),
       session_(new SessionKeeper(*store_, SessionKeeper::default_root(), this)),
@@ -103,8 +106,8 @@ void ExplorerMode::add_sections() {
   join_section_->body()->addWidget(join_);
   side->body()->addWidget(join_section_);
   for (Section* each :
-       {section_with(list_, tr("Models"), true, this), voxels_section_, verdict_section_, side,
-        inspection, section_with(edits_, tr("Editing"), false, this),
+       {section_with(list_, tr("Models"), true, this), frames_section_, voxels_section_,
+        verdict_section_, side, inspection, section_with(edits_, tr("Editing"), false, this),
         section_with(new HistoryPanel(*store_, this), tr("History"), false, this),
         section_with(look_, tr("Looking"), false, this),
         section_with(stages_, tr("Processing"), true, this),
@@ -321,6 +324,18 @@ void ExplorerMode::draw_missing() {
   missing_ = {view().add(model->data->missing->drawable, style), model->data, nullptr};
 }
 
+/// Of a recording that is selected. What its meshes were made without is marked.
+void ExplorerMode::show_frames(const Model* model) {
+  const bool is_recording = model && model->data->kind == ModelKind::kRecording;
+  frames_section_->setVisible(is_recording);
+  if (!is_recording) return frames_->show_recording(nullptr, {});
+  std::set<std::size_t> left_out;
+  for (const Model& other : store_->models())
+    if (other.data->made_from == model->data)
+      left_out.insert(other.data->left_out.begin(), other.data->left_out.end());
+  frames_->show_recording(model->data->recording, left_out);
+}
+
 void ExplorerMode::on_selection(int id) {
   const Model* model = store_->find(id);
   side_->show_missing(model ? model->data->missing : nullptr);
@@ -328,6 +343,7 @@ void ExplorerMode::on_selection(int id) {
   look_->show_model(id);
   voxels_->show_model(id);
   voxels_section_->setVisible(voxels_->applies());
+  show_frames(model);
   if (look_->isolated()) sync();
   draw_missing();
   if (model && model->data->quality && colored_.of != model->data) {

@@ -15,6 +15,7 @@ namespace turnscan::studio {
 class ComparePanel;
 class DeviationPanel;
 class EditPanel;
+class FramePanel;
 class JoinPanel;
 class LookPanel;
 class MeasurePanel;
@@ -87,6 +88,7 @@ class ExplorerMode : public Mode {
   SessionKeeper& session() { return *session_; }
   SidePanel& side() { return *side_; }
   VerdictPanel& verdict() { return *verdict_; }
+  FramePanel& frames() { return *frames_; }
 
  Q_SIGNALS:
   void file_opened(const QString& path);
@@ -114,6 +116,7 @@ class ExplorerMode : public Mode {
   void color_selected();
   void draw_colored();
   void report_dialog();
+  void show_frames(const Model* model);
   void on_selection(int id);
 
   ModelStore* store_;
@@ -131,7 +134,8 @@ class ExplorerMode : public Mode {
   VerdictPanel* verdict_;
   LookPanel* look_;
   VoxelPanel* voxels_;
-  Section *voxels_section_, *verdict_section_;
+  FramePanel* frames_;
+  Section *frames_section_, *voxels_section_, *verdict_section_;
   SessionKeeper* session_;
   struct Shown {
     int item = 0;

@@ -46,6 +46,8 @@ struct ModelData {
   std::vector<std::string> recording_notes;        ///< what is missing in it
   std::shared_ptr<const MissingSurface> missing;   ///< for a mesh; nullptr: not known
   std::shared_ptr<const ScanQuality> quality;      ///< for a mesh as made by the scan, else nullptr
+  /// For a mesh: positions of the frames of its recording that it was made without.
+  std::vector<std::size_t> left_out;
   std::shared_ptr<const PassesOfMesh> passes;  ///< the same, for a recording with several passes
   std::shared_ptr<const ModelData>
       made_from;                          ///< the recording that a stage ran on; an edit has none

@@ -101,6 +101,7 @@ struct MeshOrigin {
   std::size_t first_of_page = 0;
   std::shared_ptr<const MissingSurface> missing;  // of the first
   std::vector<PassesPtr> passes;                  // one each, or none
+  std::vector<std::size_t> left_out;              // frames, of all
 };
 
 StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& context,
@@ -118,6 +119,7 @@ StageRun mesh_run(Reconstruction result, const Model& model, const RunContext& c
     auto data = std::make_shared<ModelData>(*made);
     const std::size_t number = out.models.size();
     if (number == 0) data->missing = origin.missing;
+    data->left_out = origin.left_out;
     if (number < origin.passes.size()) data->passes = origin.passes[number];
     if (origin.page && object.verdict)
       data->quality = std::make_shared<ScanQuality>(ScanQuality{
@@ -145,14 +147,15 @@ Result<StageRun> mesh_of_recording(const Model& model, const ReconstructOptions&
   std::size_t on_page = made.reconstruction.objects.size();
   const MeshOrigin origin{
       page, 0, any ? missing_of(made, model) : nullptr,
-      passes_of_meshes(model.data, made.reconstruction, options.merge.chosen_pass())};
+      passes_of_meshes(model.data, made.reconstruction, options.merge.chosen_pass()),
+      made.choice.left_out};
   StageRun out = mesh_run(std::move(made.reconstruction), model, context, origin);
   QStringList reasons;
   for (PassApart& pass : made.apart) {
     const std::size_t objects = pass.reconstruction.objects.size();
     const auto passes = passes_of_meshes(model.data, pass.reconstruction, pass.number);
-    StageRun apart =
-        mesh_run(std::move(pass.reconstruction), model, context, {page, on_page, nullptr, passes});
+    StageRun apart = mesh_run(std::move(pass.reconstruction), model, context,
+                              {page, on_page, nullptr, passes, made.choice.left_out});
     on_page += objects;
     for (auto& [name, data] : apart.models)
       out.models.emplace_back(QObject::tr("%1 of %2").arg(name, QString::fromStdString(pass.name)),
