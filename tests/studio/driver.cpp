@@ -13,6 +13,7 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSettings>
+#include <QTabWidget>
 #include <QTest>
 #include <algorithm>
 #include <cstdio>
@@ -109,6 +110,9 @@ bool click(QWidget* widget) {
   if (!widget || !widget->isEnabled()) return false;
   for (QWidget* up = widget->parentWidget(); up; up = up->parentWidget()) {
     if (auto* section = qobject_cast<Section*>(up)) section->set_open(true);
+    if (auto* tabs = qobject_cast<QTabWidget*>(up))
+      for (int i = 0; i < tabs->count(); ++i)
+        if (tabs->widget(i)->isAncestorOf(widget)) tabs->setCurrentIndex(i);
   }
   QApplication::processEvents();
   for (QWidget* up = widget->parentWidget(); up; up = up->parentWidget()) {

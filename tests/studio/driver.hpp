@@ -58,8 +58,8 @@ void run_for(int milliseconds);
 /// The widget of that object name, or nullptr.
 QWidget* named(QWidget& in, const QString& name);
 QPushButton* button_with(QWidget& in, const QString& text);
-/// A click of the left button in the middle, after folds around it are opened. False when the
-/// widget is not there or not enabled.
+/// A click of the left button in the middle, after folds and tabs around it are opened. False when
+/// the widget is not there or not enabled.
 bool click(QWidget* widget);
 /// Types a text into a line edit in place of what is there.
 bool type(QWidget* edit, const QString& text);

@@ -9,6 +9,8 @@
 
 class QLabel;
 class QScrollArea;
+class QSplitter;
+class QTabWidget;
 class QVBoxLayout;
 
 namespace turnscan::studio {
@@ -66,18 +68,26 @@ class Mode : public QWidget {
   ViewSettings& settings() const { return services_.settings; }
   /// Layout for sections.
   QVBoxLayout* panel() const { return body_; }
+  /// The same of a tab; the panel then has nothing but tabs.
+  QVBoxLayout* add_tab(const QString& title);
+  /// The controls that all modes share, which a mode may move.
+  QWidget* view_panel() const { return view_panel_; }
+  /// A widget to the left of the view.
+  void set_tree(QWidget* tree);
   /// Widgets that stay visible below the sections, from top to bottom: errors, progress, the main
   /// action. The action comes last, so that a longer text does not move it.
   void set_footer(std::initializer_list<QWidget*> parts);
-  /// Scrolls the panel to make a part of it visible.
+  /// Shows the tab of a part of the panel, and scrolls there.
   void reveal(QWidget* part);
 
  private:
   Services services_;
   SceneView* view_;
+  QSplitter* split_;
+  QWidget* view_panel_;
   QScrollArea* area_;
-  QVBoxLayout* body_;
-  QVBoxLayout* footer_;
+  QTabWidget* tabs_ = nullptr;  ///< in place of the area
+  QVBoxLayout *column_, *body_, *footer_;
 };
 
 }  // namespace turnscan::studio

@@ -64,6 +64,7 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
       frames_section_(section_with(frames_, tr("Frames"), true, this)),
       voxels_section_(section_with(voxels_, tr("Voxels"), true, this)),
       verdict_section_(section_with(verdict_, tr("Verdict"), true, this)),
+      side_section_(section_with(side_, tr("Another side"), true, this)),
       session_(new SessionKeeper(*store_, SessionKeeper::default_root(), this)),
       ask_unit_([this](const DoubtfulUnit& doubt) { return ask_unit(doubt, this); }) {
   const ExplorerParts parts{*store_, *list_, view(), jobs(), *tools_};
@@ -92,28 +93,30 @@ ExplorerMode::ExplorerMode(const Services& services, QWidget* parent)
 }
 
 void ExplorerMode::add_sections() {
-  auto* inspection = new Section(tr("Inspection"), false, this);
-  const auto nested = [&](QWidget* content, const QString& title, bool open) {
-    auto* section = new Section(title, open, this, Section::kNested);
-    section->body()->addWidget(content);
-    inspection->body()->addWidget(section);
-  };
-  nested(deviations_, tr("Deviations"), true);
-  nested(measure_, tr("Measure"), false);
-  nested(section_, tr("Section"), false);
-  auto* side = section_with(side_, tr("Another side"), true, this);
+  set_tree(list_);
   join_section_ = new Section(tr("Join by points"), false, this, Section::kNested);
   join_section_->body()->addWidget(join_);
-  side->body()->addWidget(join_section_);
-  for (Section* each :
-       {section_with(list_, tr("Models"), true, this), frames_section_, voxels_section_,
-        verdict_section_, side, inspection, section_with(edits_, tr("Editing"), false, this),
-        section_with(new HistoryPanel(*store_, this), tr("History"), false, this),
-        section_with(look_, tr("Looking"), false, this),
-        section_with(stages_, tr("Processing"), true, this),
-        section_with(compare_, tr("Compare"), false, this)})
-    panel()->addWidget(each);
-  panel()->addStretch();
+  side_section_->body()->addWidget(join_section_);
+  QVBoxLayout* inspect = add_tab(tr("Inspect"));
+  for (Section* each : {frames_section_, voxels_section_, verdict_section_, side_section_,
+                        section_with(deviations_, tr("Deviations"), false, this),
+                        section_with(measure_, tr("Measure"), false, this),
+                        section_with(section_, tr("Section"), false, this),
+                        section_with(compare_, tr("Compare"), false, this)})
+    inspect->addWidget(each);
+  inspect->addStretch();
+  QVBoxLayout* edit = add_tab(tr("Edit"));
+  edit->addWidget(section_with(edits_, tr("Editing"), true, this));
+  edit->addWidget(section_with(new HistoryPanel(*store_, this), tr("History"), true, this), 1);
+  QVBoxLayout* look = add_tab(tr("View"));
+  view_panel()->layout()->setContentsMargins(4, 6, 4, 12);
+  look->addWidget(view_panel());
+  look->addSpacing(10);
+  look->addWidget(look_);
+  look->addStretch();
+  QVBoxLayout* process = add_tab(tr("Process"));
+  process->addWidget(stages_);
+  process->addStretch();
 }
 
 void ExplorerMode::connect_panels() {
@@ -130,6 +133,10 @@ void ExplorerMode::connect_panels() {
   connect(list_, &ModelList::selection_changed, this, &ExplorerMode::on_selection);
   connect(list_, &ModelList::open_wanted, this, &ExplorerMode::open_dialog);
   connect(list_, &ModelList::save_wanted, this, &ExplorerMode::save);
+  connect(list_, &ModelList::settings_wanted, this, [this](const MadeWithPtr& made) {
+    stages_->use(*made);
+    reveal(stages_);
+  });
   connect(stages_, &StagePanel::run, this, &ExplorerMode::run_stage);
   connect(stages_, &StagePanel::save_preset, this, &ExplorerMode::save_preset);
   connect(stages_, &StagePanel::filter, this, &ExplorerMode::run_filter);
@@ -331,9 +338,9 @@ void ExplorerMode::show_frames(const Model* model) {
   if (!is_recording) return frames_->show_recording(nullptr, {});
   std::set<std::size_t> left_out;
   for (const Model& other : store_->models())
-    if (other.data->made_from == model->data)
+    if (store_->input_of(other) == model)
       left_out.insert(other.data->left_out.begin(), other.data->left_out.end());
-  frames_->show_recording(model->data->recording, left_out);
+  frames_->show_recording(model->data->recording, left_out, list_->selected_pass());
 }
 
 void ExplorerMode::on_selection(int id) {
@@ -343,6 +350,9 @@ void ExplorerMode::on_selection(int id) {
   look_->show_model(id);
   voxels_->show_model(id);
   voxels_section_->setVisible(voxels_->applies());
+  const bool is_mesh = model && model->data->kind == ModelKind::kMesh;
+  verdict_section_->setVisible(is_mesh);
+  side_section_->setVisible(is_mesh);
   show_frames(model);
   if (look_->isolated()) sync();
   draw_missing();

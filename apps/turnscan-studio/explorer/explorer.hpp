@@ -99,8 +99,6 @@ class ExplorerMode : public Mode {
             std::optional<double> metres_per_unit = std::nullopt, Beside beside = kOthers);
   std::vector<int> visible_models() const;
   std::optional<Model> stage_input() const;
-  /// Models that stages made from the recording.
-  std::vector<int> visible_results(const ModelDataPtr& recording) const;
   std::optional<int> recording_from(const QString& folder) const;
   void movie_dialog();
   void run_filter();
@@ -135,7 +133,7 @@ class ExplorerMode : public Mode {
   LookPanel* look_;
   VoxelPanel* voxels_;
   FramePanel* frames_;
-  Section *frames_section_, *voxels_section_, *verdict_section_;
+  Section *frames_section_, *voxels_section_, *verdict_section_, *side_section_;
   SessionKeeper* session_;
   struct Shown {
     int item = 0;

@@ -120,22 +120,11 @@ std::vector<int> ExplorerMode::visible_models() const {
 std::optional<Model> ExplorerMode::stage_input() const {
   const Model* selected = store_->find(list_->selected());
   if (!selected) return std::nullopt;
-  const ModelDataPtr& from = selected->data->made_from;
-  if (!from) return *selected;
-  for (const Model& model : store_->models())
-    if (model.data == from) return model;
-  const auto renewed = recording_from(from->source);
-  if (renewed) return *store_->find(*renewed);
+  if (!selected->made) return *selected;
+  if (const Model* input = store_->input_of(*selected)) return *input;
   Model removed = *selected;
-  removed.data = from;
+  removed.data = selected->made->input;
   return removed;
-}
-
-std::vector<int> ExplorerMode::visible_results(const ModelDataPtr& recording) const {
-  std::vector<int> ids;
-  for (const Model& model : store_->models())
-    if (model.visible && model.data->made_from == recording) ids.push_back(model.id);
-  return ids;
 }
 
 void ExplorerMode::run_stage(const QString& stage) {
@@ -151,19 +140,19 @@ void ExplorerMode::run_stage(const QString& stage) {
       [this, model = *input, stage = stage.toStdString(),
        options = stages_->options()](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(StageRun run, run_stage_of(model, stage, options, context));
-        return Finish([this, model, run = std::move(run)] {
-          // Models of one recording lie in the same place.
-          auto hidden = visible_results(model.data);
-          hidden.push_back(model.id);
+        return Finish([this, run = std::move(run)] {
           show_until_mesh(nullptr);
-          const auto ids = store_->add_instead(run.models, hidden, tr("reconstruct"));
-          verdict_section_->set_open(true);  // of this scan
+          const auto ids = store_->add_made(run.models, run.made, tr("reconstruct"));
           list_->select(ids.front());
+          // Of this scan, whatever was looked at before.
+          verdict_section_->set_open(true);
+          if (run.made->stage == kMeshStage) reveal(verdict_);
           stages_->show_used(run.choices);
           if (!run.not_joined.isEmpty()) {
             stages_->show_error(
                 tr("%1\nAnother side, Join by points shows how it lay.").arg(run.not_joined));
             join_section_->set_open(true);
+            reveal(join_section_);
           }
           view().fit_unless_moved();  // a recording also shows the table
         });

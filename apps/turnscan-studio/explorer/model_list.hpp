@@ -1,6 +1,9 @@
 #pragma once
 
 #include <QWidget>
+#include <set>
+
+#include "explorer/models.hpp"
 
 class QMenu;
 class QPlainTextEdit;
@@ -9,15 +12,16 @@ class QTreeWidgetItem;
 
 namespace turnscan::studio {
 
-class ModelStore;
-
-/// List of the models: show and hide, rename, duplicate, delete, colour, counts, properties.
+/// Tree of the models: below a recording its passes and what stages made of it. Show and hide,
+/// rename, duplicate, delete, colour, counts, properties, and what made each.
 class ModelList : public QWidget {
   Q_OBJECT
  public:
   explicit ModelList(ModelStore& store, QWidget* parent = nullptr);
 
   int selected() const;  ///< 0: none
+  /// The pass that is selected below a recording, which is the selected model; else the first.
+  std::uint32_t selected_pass() const;
   void select(int id);
   void rename_selected();
 
@@ -25,10 +29,14 @@ class ModelList : public QWidget {
   void selection_changed(int id);
   void open_wanted();
   void save_wanted();
+  /// The options of a run are to be set as they were for these models.
+  void settings_wanted(const MadeWithPtr& made);
 
  private:
   void fill();
-  void fit_height();
+  void select(int id, const QVariant& pass);
+  QTreeWidgetItem* make_item(const Model& model);
+  void add_passes(const Model& model, QTreeWidgetItem* recording);
   void on_item_changed(QTreeWidgetItem* item, int column);
   void choose_color();
   void show_properties();
@@ -38,6 +46,7 @@ class ModelList : public QWidget {
   ModelStore& store_;
   QTreeWidget* tree_;
   QPlainTextEdit* properties_;
+  std::set<int> folded_;  ///< models whose nodes are closed
   bool filling_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "explorer/models.hpp"
 
+#include <QFileInfo>
 #include <algorithm>
 
 #include "widgets/text.hpp"
@@ -10,6 +11,13 @@ namespace turnscan::studio {
 namespace {
 
 constexpr std::size_t kModelUndoSteps = 100;
+
+/// Also of a recording that was read again because it got another pass.
+bool is_same_input(const ModelData& one, const ModelData& other) {
+  return &one == &other ||
+         (one.kind == ModelKind::kRecording && other.kind == ModelKind::kRecording &&
+          QFileInfo(one.source) == QFileInfo(other.source));
+}
 
 }  // namespace
 
@@ -29,6 +37,23 @@ QString count_text(const ModelData& data) {
       ++(info.status == FrameStatus::kDropped ? dropped : written);
   const QString text = QObject::tr("%1 frames").arg(grouped(written));
   return dropped == 0 ? text : QObject::tr("%1, %2 dropped").arg(text, grouped(dropped));
+}
+
+std::optional<std::uint32_t> only_pass(const ModelData& data) {
+  if (!data.passes || data.passes->T_mesh_table.size() != 1) return std::nullopt;
+  return data.passes->T_mesh_table.begin()->first;
+}
+
+const Model* input_of(const Model& model, const std::vector<Model>& among) {
+  if (!model.made) return nullptr;
+  const auto find_if = [&](auto is_it) {
+    const auto at = std::find_if(among.begin(), among.end(), is_it);
+    return at == among.end() ? nullptr : &*at;
+  };
+  const auto* same = find_if([&](const Model& m) { return m.data == model.made->input; });
+  return same ? same : find_if([&](const Model& m) {
+    return !m.made && is_same_input(*m.data, *model.made->input);
+  });
 }
 
 const Model* ModelStore::find(int id) const {
@@ -105,6 +130,45 @@ std::vector<int> ModelStore::add_instead(const std::vector<std::pair<QString, Mo
   return ids;
 }
 
+std::vector<int> ModelStore::add_made(const std::vector<std::pair<QString, ModelDataPtr>>& results,
+                                      const MadeWithPtr& made, const QString& what) {
+  step(what);
+  std::vector<int> ids, before;
+  for (Model& model : models_) {
+    if (model.data != made->input &&
+        !(model.made && is_same_input(*model.made->input, *made->input)))
+      continue;
+    model.visible = false;
+    if (model.made && model.made->stage == made->stage && !model.own) before.push_back(model.id);
+  }
+  for (Model& model : as_models(results)) {
+    const auto same = std::find_if(before.begin(), before.end(), [&](int id) {
+      return only_pass(*find(id)->data) == only_pass(*model.data);
+    });
+    model.made = made;
+    if (same == before.end()) {
+      ids.push_back(append({model}).front());
+      continue;
+    }
+    Model& replaced = *mutable_find(*same);
+    replaced.data = model.data;
+    replaced.made = made;
+    replaced.visible = true;
+    ids.push_back(*same);
+    before.erase(same);
+  }
+  // A run before may have made more objects.
+  std::erase_if(models_, [&](const Model& model) {
+    return std::find(before.begin(), before.end(), model.id) != before.end() &&
+           std::any_of(results.begin(), results.end(), [&](const auto& result) {
+             return only_pass(*result.second) == only_pass(*model.data);
+           });
+  });
+  drop_stale_selection();
+  Q_EMIT changed();
+  return ids;
+}
+
 void ModelStore::rename(int id, const QString& name) {
   const Model* model = find(id);
   const QString wanted = name.trimmed();
@@ -144,6 +208,7 @@ void ModelStore::set_data(int id, ModelDataPtr data, const QString& what) {
   if (!find(id)) return;
   step(what);
   mutable_find(id)->data = std::move(data);
+  mutable_find(id)->own = true;
   drop_stale_selection();
   Q_EMIT changed();
 }
@@ -178,6 +243,7 @@ void ModelStore::duplicate(int id) {
   if (!model) return;
   Model copy = *model;
   step(tr("duplicate"));
+  copy.own = true;
   copy.id = next_id_++;
   copy.name = free_name(copy.name);
   copy.color = model_color(next_color_++);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/geometry/selection/selection.hpp>
+#include <turnscan/reconstruction/result.hpp>
 #include <vector>
 
 #include "app/another_side.hpp"
@@ -49,24 +50,36 @@ struct ModelData {
   /// For a mesh: positions of the frames of its recording that it was made without.
   std::vector<std::size_t> left_out;
   std::shared_ptr<const PassesOfMesh> passes;  ///< the same, for a recording with several passes
-  std::shared_ptr<const ModelData>
-      made_from;                          ///< the recording that a stage ran on; an edit has none
-  std::optional<double> metres_per_unit;  ///< with which its file was read, if specified
-  QString source;                         ///< file, or the operation that made it
-  QString report;                         ///< several human-readable lines
+  std::optional<double> metres_per_unit;       ///< with which its file was read, if specified
+  QString source;                              ///< file, or the operation that made it
+  QString report;                              ///< several human-readable lines
   DrawablePtr drawable;
 };
 using ModelDataPtr = std::shared_ptr<const ModelData>;
+
+/// What a run made models from, and with which options.
+struct MadeWith {
+  ModelDataPtr input;                      ///< a recording, or a cloud without one
+  std::string stage;                       ///< kMeshStage or one of saveable_stages()
+  std::vector<ResolvedParameter> changed;  ///< options, as given; the reason is their default
+  std::vector<ResolvedParameter> chosen;   ///< automatic options, and what the data made of them
+};
+using MadeWithPtr = std::shared_ptr<const MadeWith>;
 
 struct Model {
   int id = 0;
   QString name;
   ModelDataPtr data;
+  MadeWithPtr made = nullptr;  ///< nullptr: opened, or made by hand; an edit keeps it
+  bool own = false;            ///< edited, or a duplicate: no run takes its place
   bool visible = true;
   QColor color;
   bool own_colors = true;
   double opacity = 1.0;
 };
+
+/// The one of these that the model was made from, also if that was read again since; nullptr: none.
+const Model* input_of(const Model& model, const std::vector<Model>& among);
 
 /// The parts that an edit applies to: triangles of a mesh, or points of a cloud.
 struct SelectedParts {
@@ -81,6 +94,9 @@ struct ModelState {
   std::vector<Model> models;
   SelectedParts selected;
 };
+
+/// The only one of several passes that a mesh was made from; nullopt: all, or there is only one.
+std::optional<std::uint32_t> only_pass(const ModelData& data);
 
 /// "24 686 triangles", "12 345 points" or "920 frames"
 QString count_text(const ModelData& data);
@@ -103,6 +119,12 @@ class ModelStore : public QObject {
   /// The same, hiding the models that they were made from, which are in the same place.
   std::vector<int> add_instead(const std::vector<std::pair<QString, ModelDataPtr>>& made,
                                const std::vector<int>& hidden, const QString& what);
+  /// The same for the results of a run: what the same stage made of the same recording, or of a
+  /// single pass of it, before, is replaced, except by hand-made models. Its other results are
+  /// hidden.
+  std::vector<int> add_made(const std::vector<std::pair<QString, ModelDataPtr>>& results,
+                            const MadeWithPtr& made, const QString& what);
+  const Model* input_of(const Model& model) const { return studio::input_of(model, models_); }
   void rename(int id, const QString& name);
   void set_visible(int id, bool visible);
   void set_color(int id, const QColor& color, bool own_colors);

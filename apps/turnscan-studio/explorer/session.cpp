@@ -121,9 +121,18 @@ bool SessionKeeper::take_folder() {
 
 KeptModel SessionKeeper::keep(const Model& model, Kept& kept, Files& files) {
   const ModelDataPtr& data = model.data;
-  KeptModel entry{
-      model.id,      model.name,       store_.file_of(*data), true,          0,
-      model.visible, model.own_colors, model.color,           model.opacity, data->metres_per_unit};
+  KeptModel entry{model.id,
+                  model.name,
+                  store_.file_of(*data),
+                  true,
+                  0,
+                  model.visible,
+                  model.own_colors,
+                  model.color,
+                  model.opacity,
+                  data->metres_per_unit,
+                  {},
+                  model.own};
   if (!entry.file.isEmpty()) {
     entry.file = QFileInfo(entry.file).absoluteFilePath();
     return entry;
@@ -154,6 +163,8 @@ void SessionKeeper::write() {
     entry.what = state.what;
     for (const Model& model : state.models) {
       KeptModel made = keep(model, kept, files);
+      if (const Model* input = input_of(model, state.models))
+        made.made = {input->id, model.made->stage, model.made->changed, model.made->chosen};
       // The models of a file are in its order, all added in one step.
       auto& order = in_file[made.file];
       const auto at = std::find(order.begin(), order.end(), model.data.get());
@@ -226,6 +237,23 @@ class FileReader {
 
 }  // namespace
 
+namespace {
+
+/// What made each model of a state, where that is among them.
+void restore_origins(const KeptState& state, std::vector<Model>& models) {
+  const auto of = [&](int id) {
+    return std::find_if(models.begin(), models.end(), [&](const Model& m) { return m.id == id; });
+  };
+  for (const KeptModel& entry : state.models) {
+    const auto model = of(entry.id), input = of(entry.made.input);
+    if (model == models.end() || input == models.end() || model == input) continue;
+    model->made = std::make_shared<MadeWith>(
+        MadeWith{input->data, entry.made.stage, entry.made.changed, entry.made.chosen});
+  }
+}
+
+}  // namespace
+
 Result<RestoredModels> restore(const LostSession& lost, const RunContext& context) {
   RestoredModels out;
   FileReader files(context);
@@ -240,12 +268,13 @@ Result<RestoredModels> restore(const LostSession& lost, const RunContext& contex
         continue;
       }
       if (entry.in_own_file) out.files[data] = entry.file;
-      made.models.push_back({entry.id, entry.name, data, entry.visible, entry.color,
-                             entry.own_colors, entry.opacity});
+      made.models.push_back({entry.id, entry.name, data, nullptr, entry.own, entry.visible,
+                             entry.color, entry.own_colors, entry.opacity});
       if (state.selected_model != int(i) || state.selected.size() != parts_of(*data)) continue;
       made.selected = {data, std::make_shared<const Selection>(state.selected),
                        selection_drawable(*data, state.selected)};
     }
+    restore_origins(state, made.models);
   }
   return out;
 }

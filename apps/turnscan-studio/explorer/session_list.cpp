@@ -12,6 +12,25 @@ namespace turnscan::studio {
 
 namespace {
 
+QJsonArray json_of(const std::vector<ResolvedParameter>& options) {
+  QJsonArray out;
+  for (const ResolvedParameter& option : options)
+    out.append(QJsonArray{QString::fromStdString(option.option),
+                          QString::fromStdString(option.value),
+                          QString::fromStdString(option.reason)});
+  return out;
+}
+
+std::vector<ResolvedParameter> options_of(const QJsonValue& value) {
+  std::vector<ResolvedParameter> out;
+  for (const QJsonValue& each : value.toArray()) {
+    const QJsonArray option = each.toArray();
+    out.push_back({option.at(0).toString().toStdString(), option.at(1).toString().toStdString(),
+                   option.at(2).toString().toStdString()});
+  }
+  return out;
+}
+
 QJsonObject json_of(const KeptModel& model) {
   QJsonObject entry{{"id", model.id},
                     {"name", model.name},
@@ -23,6 +42,12 @@ QJsonObject json_of(const KeptModel& model) {
                     {"color", model.color.name()},
                     {"opacity", model.opacity}};
   if (model.metres_per_unit) entry["metres_per_unit"] = *model.metres_per_unit;
+  if (model.own) entry["own"] = true;
+  if (model.made.input != 0)
+    entry["made"] = QJsonObject{{"input", model.made.input},
+                                {"stage", QString::fromStdString(model.made.stage)},
+                                {"changed", json_of(model.made.changed)},
+                                {"chosen", json_of(model.made.chosen)}};
   return entry;
 }
 
@@ -41,6 +66,10 @@ KeptModel model_of(const QJsonObject& entry, const QString& folder) {
   model.opacity = std::clamp(entry.value("opacity").toDouble(1.0), 0.0, 1.0);
   if (const double unit = entry.value("metres_per_unit").toDouble(); unit > 0.0)
     model.metres_per_unit = unit;
+  model.own = entry.value("own").toBool();
+  const QJsonObject made = entry.value("made").toObject();
+  model.made = {made.value("input").toInt(), made.value("stage").toString().toStdString(),
+                options_of(made.value("changed")), options_of(made.value("chosen"))};
   return model;
 }
 

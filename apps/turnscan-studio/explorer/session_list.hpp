@@ -6,11 +6,19 @@
 #include <QString>
 #include <optional>
 #include <turnscan/geometry/selection/selection.hpp>
+#include <turnscan/reconstruction/result.hpp>
 #include <vector>
 
 #include "view/scene_view.hpp"
 
 namespace turnscan::studio {
+
+/// What made a model; see MadeWith.
+struct KeptOrigin {
+  int input = 0;  ///< id of a model of the same state; 0: it was not made from one
+  std::string stage;
+  std::vector<ResolvedParameter> changed, chosen;
+};
 
 /// A model as stored in a session.
 struct KeptModel {
@@ -22,6 +30,8 @@ struct KeptModel {
   QColor color;
   double opacity = 1.0;
   std::optional<double> metres_per_unit = std::nullopt;  ///< of its own file, if specified
+  KeptOrigin made = {};
+  bool own = false;  ///< as of Model
 };
 
 /// A state of the models, and the next action.

@@ -169,6 +169,14 @@ void StagePanel::set_option(const std::string& stage, const QString& name, const
     if (of == stage) form->set_values({{name, value}});
 }
 
+void StagePanel::use(const MadeWith& made) {
+  reset();
+  QMap<QString, QString> values;
+  for (const ResolvedParameter& option : made.changed)
+    values[QString::fromStdString(option.option)] = QString::fromStdString(option.value);
+  for (const auto& [stage, form] : forms_) form->set_values(values);
+}
+
 QString StagePanel::first_error() const {
   for (const auto& [stage, form] : forms_)
     if (!form->valid()) return form->first_error();

@@ -20,6 +20,7 @@ struct ReconstructOptions;
 namespace turnscan::studio {
 
 class MessageLabel;
+struct MadeWith;
 class OptionForm;
 class Section;
 
@@ -32,6 +33,8 @@ class StagePanel : public QWidget {
   const ReconstructOptions& options() const { return *options_; }
   /// The first error in the options, or empty.
   QString first_error() const;
+  /// Sets all options as they were in that run.
+  void use(const MadeWith& made);
   void set_option(const std::string& stage, const QString& name, const QString& value);
   /// Shows the values that were used for automatic options.
   void show_used(const std::vector<ResolvedParameter>& choices);

@@ -218,6 +218,35 @@ Result<StageRun> run_recording(const Model& model, const std::string& stage,
   return run;
 }
 
+/// With what made it.
+Result<StageRun> as_made(Result<StageRun> run, const Model& input, const std::string& stage,
+                         ReconstructOptions options) {
+  if (!run) return run;
+  auto made = std::make_shared<MadeWith>();
+  made->input = input.data;
+  made->stage = stage;
+  ReconstructOptions defaults;
+  const auto given = describe_stages(options), usual = describe_stages(defaults);
+  for (std::size_t i = 0; i < given.size(); ++i)
+    for (const OptionField& field : given[i].table.fields()) {
+      const std::string value = field.get(), otherwise = usual[i].table.find(field.name)->get();
+      if (value != otherwise) made->changed.push_back({field.name, value, otherwise});
+    }
+  const auto is_in = [](const std::vector<ResolvedParameter>& list, const auto& is_it) {
+    return std::any_of(list.begin(), list.end(), is_it);
+  };
+  for (const ResolvedParameter& choice : run->choices) {
+    const auto same = [&](const auto& other) { return other.option == choice.option; };
+    const auto equal = [&](const auto& other) {
+      return same(other) && other.value == choice.value;
+    };
+    // Each pass has a choice of its own, mostly the same.
+    if (!is_in(made->changed, same) && !is_in(made->chosen, equal)) made->chosen.push_back(choice);
+  }
+  run->made = std::move(made);
+  return run;
+}
+
 Result<StageRun> run_cloud(const Model& model, const std::string& stage, ReconstructOptions options,
                            const RunContext& context) {
   std::string note = fmt::format("made from the {} points of '{}', not from frames of a recording",
@@ -239,17 +268,10 @@ Result<StageRun> run_cloud(const Model& model, const std::string& stage, Reconst
 Result<StageRun> run_stage_of(const Model& model, const std::string& stage,
                               const ReconstructOptions& options, const RunContext& context) {
   switch (model.data->kind) {
-    case ModelKind::kRecording: {
-      TURNSCAN_ASSIGN(StageRun run, run_recording(model, stage, options, context));
-      for (auto& [name, data] : run.models) {
-        auto made = std::make_shared<ModelData>(*data);
-        made->made_from = model.data;
-        data = std::move(made);
-      }
-      return run;
-    }
+    case ModelKind::kRecording:
+      return as_made(run_recording(model, stage, options, context), model, stage, options);
     case ModelKind::kCloud:
-      return run_cloud(model, stage, options, context);
+      return as_made(run_cloud(model, stage, options, context), model, stage, options);
     case ModelKind::kMesh:
       break;
   }
@@ -275,7 +297,7 @@ Result<StageRun> join_stated(const Model& recording, const std::vector<PassPose>
   const QString note =
       QObject::tr("\nThe command line makes it with%1 --refine-pass-poses").arg(same);
   for (auto& [name, data] : run.models) data = with_note(*data, note);
-  return run;
+  return as_made(std::move(run), recording, kMeshStage, options);
 }
 
 Result<StageRun> mesh_each_pass(const Model& recording, const ReconstructOptions& options,
@@ -298,7 +320,7 @@ Result<StageRun> mesh_each_pass(const Model& recording, const ReconstructOptions
   }
   out.not_joined = reasons.join("\n");
   if (out.models.empty()) return fail(ErrorCode::kTooFewPoints, "{}", out.not_joined.toStdString());
-  return out;
+  return as_made(std::move(out), recording, kMeshStage, options);
 }
 
 Result<ModelDataPtr> filter_cloud(const Model& model, const OutlierOptions& options,

@@ -16,6 +16,7 @@ inline const std::string kMeshStage = "mesh";
 
 struct StageRun {
   NamedModels models;
+  MadeWithPtr made;                        ///< lists these values, too
   std::vector<ResolvedParameter> choices;  ///< values used for automatic options
   QString not_joined;  ///< why passes are separate, each in its own model; else empty
 };

@@ -7,6 +7,8 @@
 #include <QRegularExpression>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
 
 #include "explorer/scan_quality.hpp"
 #include "widgets/no_wheel.hpp"
@@ -19,6 +21,31 @@ namespace {
 QString light_text(const Verdict& verdict) {
   const QString colour = QString::fromUtf8(verdict.colour().data(), int(verdict.colour().size()));
   return QString("%1  %2").arg(sign_of(verdict.level()), colour.toUpper());
+}
+
+/// The first of what is worst; of a good scan, how far it lies from the truth.
+std::size_t most_important(const Verdict& verdict) {
+  const auto& all = verdict.sentences;
+  const auto at = std::find_if(all.begin(), all.end(), [&](const VerdictSentence& s) {
+    return s.level == verdict.level() && (s.level != Level::kGood || s.topic == "error");
+  });
+  return at == all.end() ? 0 : std::size_t(at - all.begin());
+}
+
+/// "0.21 mm", with the digits that the sentence gives it; empty: it has no single number.
+QString figure_of(const VerdictSentence& sentence) {
+  if (sentence.unit.empty()) return {};
+  const QRegularExpression number(
+      QString(R"(\d+(?:\.(\d+))? %1)").arg(QString::fromStdString(sentence.unit)));
+  auto matches = number.globalMatch(QString::fromStdString(sentence.text));
+  while (matches.hasNext()) {
+    const auto match = matches.next();
+    const double written = match.captured(0).section(' ', 0, 0).toDouble();
+    const double last_digit = std::pow(10.0, -match.captured(1).size());
+    if (std::abs(written - sentence.value) < 0.51 * last_digit)
+      return match.captured(0).replace("cm2", "cm²");
+  }
+  return {};
 }
 
 /// Worded for users who do not use the command line.
@@ -42,9 +69,14 @@ VerdictPanel::VerdictPanel(QWidget* parent) : QWidget(parent) {
   light_ = new QLabel(this);
   light_->setObjectName("verdict");
   light_->setAccessibleName(tr("Verdict"));
-  sentences_ = new ParagraphLabel(this);
-  sentences_->setObjectName("verdict_sentences");
-  sentences_->setTextFormat(Qt::RichText);
+  first_ = new ParagraphLabel(this);
+  first_->setObjectName("verdict_first");
+  more_ = new Section(tr("Other findings"), false, this, Section::kNested);
+  more_->setObjectName("verdict_more");
+  others_ = new ParagraphLabel(more_);
+  others_->setObjectName("verdict_others");
+  for (ParagraphLabel* each : {first_, others_}) each->setTextFormat(Qt::RichText);
+  more_->body()->addWidget(others_);
   auto* row = new QHBoxLayout;
   colors_ = new QComboBox(this);
   colors_->setObjectName("verdict_colors");
@@ -56,7 +88,8 @@ VerdictPanel::VerdictPanel(QWidget* parent) : QWidget(parent) {
   row->addWidget(colors_, 1);
   row->addWidget(report_);
   layout->addWidget(light_);
-  layout->addWidget(sentences_);
+  layout->addWidget(first_);
+  layout->addWidget(more_);
   layout->addLayout(row);
   connect(colors_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
           &VerdictPanel::color_way_changed);
@@ -68,6 +101,7 @@ void VerdictPanel::show_quality(const std::shared_ptr<const ScanQuality>& qualit
   const bool other = quality != quality_;
   quality_ = quality;
   light_->setVisible(quality != nullptr);
+  more_->setVisible(quality && quality->verdict.sentences.size() > 1);
   colors_->setEnabled(quality != nullptr);
   report_->setEnabled(quality != nullptr);
   if (other || !quality) {
@@ -80,27 +114,33 @@ void VerdictPanel::show_quality(const std::shared_ptr<const ScanQuality>& qualit
     colors_->setCurrentIndex(std::max(0, colors_->findData(before)));
   }
   if (!quality) {
-    sentences_->show_text(
+    first_->show_text(
         tr("Select a mesh that was made from a recording: how good it is, and why, stands here. "
            "One that was edited, opened from a file or restored has no verdict; reconstruct its "
            "recording for one."));
     return;
   }
-  light_->setText(light_text(quality->verdict));
+  const std::size_t first = most_important(quality->verdict);
+  const auto& sentences = quality->verdict.sentences;
+  QString headline = light_text(quality->verdict), html;
+  if (!sentences.empty())
+    headline += QString("&nbsp;&nbsp;&nbsp;<span style=\"font-size:large\">%1</span>")
+                    .arg(figure_of(sentences[first]));
+  light_->setText(headline);
   light_->setStyleSheet(
       QString("background:%1; color:#101010; font-weight:bold; padding:6px 10px; border-radius:4px")
           .arg(color_of(quality->verdict.level()).name()));
-  QString html;
-  for (const VerdictSentence& sentence : quality->verdict.sentences)
-    html += sentence_html(sentence);
-  sentences_->show_text(html);
+  for (std::size_t i = 0; i < sentences.size(); ++i)
+    if (i != first) html += sentence_html(sentences[i]);
+  first_->show_text(sentences.empty() ? QString() : sentence_html(sentences[first]));
+  others_->show_text(html);
 }
 
 QString VerdictPanel::color_way() const { return colors_->currentData().toString(); }
 
 QString VerdictPanel::text() const {
-  if (!quality_) return sentences_->text();
-  QString out = light_->text();
+  if (!quality_) return first_->text();
+  QString out = light_text(quality_->verdict);
   for (const VerdictSentence& sentence : quality_->verdict.sentences)
     out += "\n" + QString::fromStdString(sentence.text);
   return out;

@@ -10,10 +10,11 @@ class QPushButton;
 namespace turnscan::studio {
 
 class ParagraphLabel;
+class Section;
 struct ScanQuality;
 
-/// Quality of the selected mesh: a traffic light, a sentence for each property, colouring, the
-/// report.
+/// Quality of the selected mesh: a traffic light with the figure and the sentence that matter most,
+/// the other sentences folded, colouring, the report.
 class VerdictPanel : public QWidget {
   Q_OBJECT
  public:
@@ -33,7 +34,8 @@ class VerdictPanel : public QWidget {
  private:
   std::shared_ptr<const ScanQuality> quality_;
   QLabel* light_;
-  ParagraphLabel* sentences_;
+  ParagraphLabel *first_, *others_;
+  Section* more_;
   QComboBox* colors_;
   QPushButton* report_;
 };

@@ -1641,6 +1641,30 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
         <source>Put nothing on the table and press Calibrate; or record at once: the object&apos;s motion shows where the table is.</source>
         <translation>No ponga nada en la mesa y pulse Calibrar; o grabe sin más: el movimiento del objeto muestra dónde está la mesa.</translation>
     </message>
+    <message>
+        <source>%1 %2 (default %3)</source>
+        <translation>%1 %2 (por defecto %3)</translation>
+    </message>
+    <message>
+        <source>Made with the defaults</source>
+        <translation>Hecho con los valores por defecto</translation>
+    </message>
+    <message>
+        <source>Made with</source>
+        <translation>Hecho con</translation>
+    </message>
+    <message>
+        <source>
+Found from the data</source>
+        <translation>
+Según los datos</translation>
+    </message>
+    <message>
+        <source>
+Edited or duplicated since</source>
+        <translation>
+Editado o duplicado después</translation>
+    </message>
 </context>
 <context>
     <name>turnscan::studio::ComparePanel</name>
@@ -2040,14 +2064,6 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
 <context>
     <name>turnscan::studio::ExplorerMode</name>
     <message>
-        <source>Models</source>
-        <translation>Modelos</translation>
-    </message>
-    <message>
-        <source>Processing</source>
-        <translation>Procesado</translation>
-    </message>
-    <message>
         <source>Compare</source>
         <translation>Comparar</translation>
     </message>
@@ -2058,10 +2074,6 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
     <message>
         <source>Verdict</source>
         <translation>Veredicto</translation>
-    </message>
-    <message>
-        <source>Looking</source>
-        <translation>Aspecto</translation>
     </message>
     <message>
         <source>Nothing loaded yet</source>
@@ -2196,10 +2208,6 @@ La línea de órdenes lo hace con%1 --refine-pass-poses</translation>
         <translation>reconstruir %1</translation>
     </message>
     <message>
-        <source>Inspection</source>
-        <translation>Inspección</translation>
-    </message>
-    <message>
         <source>Deviations</source>
         <translation>Desviaciones</translation>
     </message>
@@ -2252,6 +2260,26 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     <message>
         <source>%1 was not opened</source>
         <translation>%1 no se ha abierto</translation>
+    </message>
+    <message>
+        <source>Frames</source>
+        <translation>Fotogramas</translation>
+    </message>
+    <message>
+        <source>Inspect</source>
+        <translation>Inspeccionar</translation>
+    </message>
+    <message>
+        <source>Edit</source>
+        <translation>Editar</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ver</translation>
+    </message>
+    <message>
+        <source>Process</source>
+        <translation>Procesar</translation>
     </message>
 </context>
 <context>
@@ -2367,6 +2395,53 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     <message>
         <source>STL keeps no colours.</source>
         <translation>STL no conserva colores.</translation>
+    </message>
+</context>
+<context>
+    <name>turnscan::studio::FramePanel</name>
+    <message>
+        <source>Frame of the recording</source>
+        <translation>Fotograma de la grabación</translation>
+    </message>
+    <message>
+        <source>Arrow keys step from frame to frame; frames left out are marked</source>
+        <translation>Las flechas pasan de un fotograma a otro; los que se omitieron están marcados</translation>
+    </message>
+    <message>
+        <source>Depth image</source>
+        <translation>Imagen de profundidad</translation>
+    </message>
+    <message>
+        <source>Colour image</source>
+        <translation>Imagen en color</translation>
+    </message>
+    <message>
+        <source>Frame %1 of %2</source>
+        <translation>Fotograma %1 de %2</translation>
+    </message>
+    <message>
+        <source>sensor %1</source>
+        <translation>sensor %1</translation>
+    </message>
+    <message>
+        <source>pass %1</source>
+        <translation>pasada %1</translation>
+    </message>
+    <message>
+        <source>lost while it was recorded</source>
+        <translation>se perdió al grabar</translation>
+    </message>
+    <message>
+        <source>left out of the mesh, because its pose is not known</source>
+        <translation>no está en la malla, porque no se conoce su pose</translation>
+    </message>
+    <message>
+        <source>Frame</source>
+        <translation>Fotograma</translation>
+    </message>
+    <message>
+        <source>Yellow is %1 m from the sensor, violet %2 m</source>
+        <translation>Lo amarillo está a %1 m del sensor, lo violeta a %2 m</translation>
     </message>
 </context>
 <context>
@@ -3039,6 +3114,20 @@ Otro lado, Unir por puntos muestra cómo estaba.</translation>
     <message>
         <source>Models</source>
         <translation>Modelos</translation>
+    </message>
+    <message>
+        <source>Use its settings</source>
+        <translation>Usar sus ajustes</translation>
+    </message>
+    <message>
+        <source>Not made with the defaults:
+%1</source>
+        <translation>No se hizo con los valores por defecto:
+%1</translation>
+    </message>
+    <message>
+        <source>Pass %1</source>
+        <translation>Pasada %1</translation>
     </message>
 </context>
 <context>
@@ -4148,6 +4237,10 @@ De la última grabación con este dispositivo. Calibre de nuevo si desde entonce
     <message>
         <source>Select a mesh that was made from a recording: how good it is, and why, stands here. One that was edited, opened from a file or restored has no verdict; reconstruct its recording for one.</source>
         <translation>Seleccione una malla hecha de una grabación: aquí se dice cómo es de buena y por qué. Una que se editó, se abrió de un archivo o se restauró no tiene veredicto; reconstruya su grabación para tenerlo.</translation>
+    </message>
+    <message>
+        <source>Other findings</source>
+        <translation>Otros resultados</translation>
     </message>
 </context>
 <context>

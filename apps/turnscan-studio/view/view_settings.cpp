@@ -121,6 +121,8 @@ QSlider* slider(const QString& said, const QString& tip, const QString& name, QW
 
 ViewPanel::ViewPanel(ViewSettings& settings, SceneView& view, QWidget* parent) : QWidget(parent) {
   auto* grid = new QGridLayout(this);
+  setObjectName("view_panel");
+  setAttribute(Qt::WA_StyledBackground);
   grid->setContentsMargins(18, 12, 18, 10);
   grid->setHorizontalSpacing(10);
   grid->setVerticalSpacing(8);
@@ -130,8 +132,8 @@ ViewPanel::ViewPanel(ViewSettings& settings, SceneView& view, QWidget* parent) :
   row->addStretch();
   auto* boxes = new QCheckBox(tr("Bounding boxes"), this);
   boxes->setToolTip(tr("Draw the box around each model (B)"));
-  row->addWidget(boxes);
   grid->addLayout(row, 0, 0, 1, 4);
+  grid->addWidget(boxes, 2, 0, 1, 4);
   auto* speed = slider(tr("Camera speed"), tr("How fast mouse and keys move the camera"),
                        "camera_speed", this);
   auto* size = slider(tr("Point size"), tr("Size of points on the screen"), "point_size", this);

@@ -17,6 +17,14 @@ QToolTip { color: %text; background: %panel; border: 1px solid %line; padding: 4
 QMainWindow, QDialog { background: %window; }
 QScrollArea, QWidget#panel_body { background: %panel; border: none; }
 QWidget#panel { background: %panel; border-left: 1px solid %line; }
+QWidget#view_panel { background: %panel; border-bottom: 1px solid %line; }
+QWidget#tree_panel { background: %panel; border-right: 1px solid %line; }
+QTabBar { background: %panel; font-weight: 600; }
+QTabBar::tab { background: %panel; color: %quiet; padding: 8px 14px;
+  border-bottom: 2px solid transparent; }
+QTabBar::tab:hover { color: %text; }
+QTabBar::tab:selected { color: %accent; border-bottom: 2px solid %accent; }
+QTabBar::tab:focus { color: %text; border-bottom: 2px solid %text; }
 QWidget#top_bar { background: %panel; border-bottom: 1px solid %line; }
 QToolButton#mode { border: none; border-radius: 6px; padding: 7px 16px; color: %quiet;
   font-weight: 600; }

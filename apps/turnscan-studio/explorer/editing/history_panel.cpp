@@ -16,7 +16,7 @@ HistoryPanel::HistoryPanel(ModelStore& store, QWidget* parent)
   list_->setObjectName("history");
   list_->setAccessibleName(tr("History"));
   list_->setToolTip(tr("A click goes back to that state, or forward again"));
-  list_->setFixedHeight(130);
+  list_->setMinimumHeight(130);
   connect(&store_, &ModelStore::changed, this, &HistoryPanel::fill);
   // By mouse or keys; deferred, because the list must not be refilled within its own signal.
   connect(list_, &QListWidget::currentRowChanged, this, [this](int row) {

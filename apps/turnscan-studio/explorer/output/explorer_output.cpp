@@ -106,7 +106,8 @@ void ExplorerMode::show_stages() {
   std::vector<ShownStage> stages, visible;
   for (const Model& model : store_->models()) {
     const ShownStage shown{model, voxels_->least_of(model)};
-    if (input && model.data->made_from == input->data) stages.push_back(shown);
+    const Model* from = store_->input_of(model);
+    if (input && from && from->id == input->id) stages.push_back(shown);
     if (model.visible) visible.push_back(shown);
   }
   jobs().start(
@@ -162,7 +163,7 @@ void ExplorerMode::reconstruct_queued(
         return Finish([this, done, run = std::move(run), files, name = model.name] {
           for (int i = 0; i < files.size(); ++i)
             store_->set_file(run.models[std::size_t(i)].second, files[i]);
-          const auto ids = store_->add_all(run.models, tr("reconstruct %1").arg(name));
+          const auto ids = store_->add_made(run.models, run.made, tr("reconstruct %1").arg(name));
           // All are in the same place: only the last one is shown.
           for (const int id : queued_results_) store_->set_visible(id, false);
           queued_results_.insert(queued_results_.end(), ids.begin(), ids.end());

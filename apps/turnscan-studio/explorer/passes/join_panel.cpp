@@ -233,10 +233,10 @@ void JoinPanel::join() {
         });
         if (run.models.empty())
           return fail(ErrorCode::kMissingData, "{}", run.not_joined.toStdString());
-        return Finish([this, a, b, made = std::move(run.models)] {
+        return Finish([this, a, b, run = std::move(run)] {
           parts_.tools.stop();
           parts_.list.select(
-              parts_.store.add_instead(made, {a.id, b.id}, tr("join by points")).front());
+              parts_.store.add_made(run.models, run.made, tr("join by points")).front());
           Q_EMIT said(tr("%1 and %2 are one mesh now").arg(a.name, b.name));
         });
       },
@@ -254,9 +254,9 @@ void JoinPanel::take_apart() {
        options = std::move(*options)](const RunContext& context) -> Result<Finish> {
         TURNSCAN_ASSIGN(StageRun run,
                         mesh_each_pass(recording_of(*from.data->passes), options, context));
-        return Finish([this, from, run = std::move(run)] {
+        return Finish([this, run = std::move(run)] {
           parts_.list.select(
-              parts_.store.add_instead(run.models, {from.id}, tr("passes by themselves")).front());
+              parts_.store.add_made(run.models, run.made, tr("passes by themselves")).front());
           if (!run.not_joined.isEmpty()) error_->show_text(run.not_joined);
         });
       },
