@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <turnscan/core/angles.hpp>
+#include <turnscan/core/arc_tangent.hpp>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/core/spread.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
@@ -48,7 +49,7 @@ bool saw(const views::DepthView& view, const Vec3f& vertex, const Vec3f& normal,
 /// The sector, over all bands, of a view as seen from a point.
 int sector_of(const Viewpoint& viewpoint, const Vec3f& p) {
   const Vec3f to = viewpoint.direction_from(p.cast<double>()).cast<float>();
-  const float turn = std::atan2(to.z(), to.x()) / float(kTurn) + 0.5f;
+  const float turn = arc_tangent(to.z(), to.x()) / float(kTurn) + 0.5f;
   const float height =
       std::asin(std::clamp(to.y(), -1.0f, 1.0f)) / std::numbers::pi_v<float> + 0.5f;
   return std::clamp(int(height * kBands), 0, kBands - 1) * kSectors +
