@@ -90,7 +90,7 @@ Result<SimplifiedMesh> simplified(const ObjectResult& object, const Bound& bound
         context);
   TURNSCAN_ASSIGN(TriangleMesh fewer, simplify(object.mesh, {bound.triangles}));
   SimplifiedMesh out{std::move(fewer), std::vector<MeshDistance::Hit>(object.mesh.vertices.size())};
-  const MeshDistance distance(out.mesh);
+  TURNSCAN_ASSIGN(const MeshDistance distance, MeshDistance::create(out.mesh, context));
   TURNSCAN_TRY(parallel_for(out.nearest.size(), 256, context, [&](std::size_t v) {
     out.nearest[v] = distance.closest(object.mesh.vertices[v].cast<double>());
   }));

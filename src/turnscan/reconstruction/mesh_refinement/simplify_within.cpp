@@ -95,8 +95,7 @@ Result<SimplifiedMesh> simplify_within(const TriangleMesh& full, const SimplifyG
   for (int attempt = 0; attempt < kTries; ++attempt) {
     SimplifiedMesh fewer;
     TURNSCAN_ASSIGN(fewer.mesh, collapse_edges(with_normals, goal));
-    TURNSCAN_TRY(context.check());
-    const MeshDistance distance(fewer.mesh);
+    TURNSCAN_ASSIGN(const MeshDistance distance, MeshDistance::create(fewer.mesh, context));
     fewer.nearest.resize(full.vertices.size());
     TURNSCAN_TRY(parallel_for(full.vertices.size(), 256, context, [&](std::size_t v) {
       fewer.nearest[v] = distance.closest(full.vertices[v].cast<double>(), max_distance_m);
