@@ -160,7 +160,7 @@ TEST_F(Simulator, ASweepPlotsTheCoverageAndPlacesTheScannerAtItsBest) {
   ASSERT_TRUE(click(button_with(*sweep, "Sweep")));
   const QString refused = sweep->findChild<QLabel*>("error")->text();
   EXPECT_TRUE(refused.startsWith("tilt: 20deg")) << refused.toStdString();
-  EXPECT_TRUE(crowded(window).empty());
+  EXPECT_TRUE(wait_for([&] { return crowded(window).empty(); }, 5.0)) << crowded(window);
 }
 
 TEST_F(Simulator, AScannerIsPlacedByDragging) {

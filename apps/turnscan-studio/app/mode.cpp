@@ -54,6 +54,7 @@ QVBoxLayout* Mode::add_tab(const QString& title) {
   if (!tabs_) {
     tabs_ = new QTabWidget(this);
     tabs_->setDocumentMode(true);
+    tabs_->setMinimumWidth(380);
     tabs_->tabBar()->setDrawBase(false);
     delete column_->replaceWidget(area_, tabs_);
     delete area_;
@@ -67,13 +68,13 @@ QVBoxLayout* Mode::add_tab(const QString& title) {
 void Mode::set_tree(QWidget* tree) {
   auto* panel = new QWidget(split_);
   panel->setObjectName("tree_panel");
-  panel->setMinimumWidth(250);
+  panel->setMinimumWidth(232);
   auto* layout = new QVBoxLayout(panel);
-  layout->setContentsMargins(10, 12, 10, 10);
+  layout->setContentsMargins(4, 12, 4, 4);
   layout->addWidget(tree);
   split_->insertWidget(0, panel);
   split_->setStretchFactor(0, 0);
-  split_->setSizes({250, 810, 360});
+  split_->setSizes({232, 810, 380});
 }
 
 void Mode::set_footer(std::initializer_list<QWidget*> parts) {

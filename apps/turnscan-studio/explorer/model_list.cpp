@@ -125,7 +125,7 @@ QWidget* ModelList::make_buttons() {
   auto* layout = new QHBoxLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
-  auto* open = primary_button(tr("Open…"), tr("Load meshes, clouds or recordings (Ctrl+O)"), row);
+  auto* open = button(tr("Open…"), tr("Load meshes, clouds or recordings (Ctrl+O)"), row);
   auto* save = button(tr("Save…"), tr("Save the selected model (Ctrl+S)"), row);
   auto* edit = tool_button(tr("Edit"), tr("Rename, colour, duplicate, delete"), row);
   edit->setObjectName("tool");
@@ -283,8 +283,6 @@ void ModelList::choose_color() {
 void ModelList::show_properties() {
   const Model* model = store_.find(selected());
   properties_->setPlainText(model ? made_text(*model) + model->data->report : QString());
-  properties_->setVisible(!store_.models().empty());
-  tree_->setVisible(!store_.models().empty());
 }
 
 }  // namespace turnscan::studio
