@@ -97,7 +97,8 @@ Result<SimplifiedMesh> simplified(const ObjectResult& object, const Bound& bound
   return out;
 }
 
-/// For each vertex of a simplified mesh the vertex of the full mesh at its position.
+/// For each vertex of a simplified mesh the vertex of the full mesh at its position; for one that
+/// mending added, a nearest corner of the triangle that it is on.
 std::vector<std::uint32_t> places_in(const TriangleMesh& full, const TriangleMesh& fewer) {
   using Place = std::array<float, 3>;
   const auto place = [](const Vec3f& p) { return Place{p.x(), p.y(), p.z()}; };
@@ -105,9 +106,19 @@ std::vector<std::uint32_t> places_in(const TriangleMesh& full, const TriangleMes
   for (std::uint32_t v = 0; v < full.vertices.size(); ++v)
     sorted.emplace_back(place(full.vertices[v]), v);
   std::sort(sorted.begin(), sorted.end());
+  std::optional<MeshDistance> on_full;
+  const auto nearest = [&](const Vec3f& p) {
+    if (!on_full) on_full.emplace(full);
+    const auto& corners = full.triangles[on_full->closest(p.cast<double>()).triangle];
+    return *std::min_element(corners.begin(), corners.end(), [&](auto a, auto b) {
+      return (full.vertices[a] - p).squaredNorm() < (full.vertices[b] - p).squaredNorm();
+    });
+  };
   std::vector<std::uint32_t> out;
-  for (const Vec3f& p : fewer.vertices)
-    out.push_back(std::lower_bound(sorted.begin(), sorted.end(), std::pair(place(p), 0u))->second);
+  for (const Vec3f& p : fewer.vertices) {
+    const auto at = std::lower_bound(sorted.begin(), sorted.end(), std::pair(place(p), 0u));
+    out.push_back(at != sorted.end() && at->first == place(p) ? at->second : nearest(p));
+  }
   return out;
 }
 
