@@ -55,17 +55,19 @@ class Untangling {
     TriangleMesh unmoved;
     unmoved.vertices = start_;
     unmoved.triangles = mesh_.triangles;
-    const Marks before = self_intersections(unmoved).triangles;
+    const Marks before = self_intersections(unmoved, triangles_at(unmoved, loose_)).triangles;
     for (std::size_t n = 0; n < kSmallSteps + std::size(kWholeWayRings); ++n) {
       TURNSCAN_TRY(context_.check());
       const bool small = n < kSmallSteps;
-      const std::vector<float> share = fading_around(
+      std::vector<float> share = fading_around(
           neighbours_, crossing_, small ? kSmallStepRings : kWholeWayRings[n - kSmallSteps]);
+      for (std::size_t v = 0; v < share.size(); ++v)
+        if (!loose_[v]) share[v] = 0.0f;
       draw_back(share, small ? kSmallStep : 1.0f);
       crossing_ = crossing_vertices(mesh_, before, triangles_at(mesh_, share));
       if (!any_marked(crossing_)) break;
     }
-    if (any_marked(crossing_)) draw_back(std::vector<float>(start_.size(), 1.0f), 1.0f);
+    if (any_marked(crossing_)) draw_back(std::vector<float>(loose_.begin(), loose_.end()), 1.0f);
     if (any_marked(before)) crossing_ = crossing_vertices(mesh_, {}, triangles_at(mesh_, loose_));
     return !any_marked(crossing_);
   }
@@ -97,7 +99,7 @@ class Untangling {
  private:
   void draw_back(const std::vector<float>& share, float step) {
     for (std::size_t v = 0; v < share.size(); ++v)
-      if (loose_[v]) mesh_.vertices[v] += step * share[v] * (start_[v] - mesh_.vertices[v]);
+      mesh_.vertices[v] += step * share[v] * (start_[v] - mesh_.vertices[v]);
   }
 
   TriangleMesh& mesh_;
