@@ -29,9 +29,10 @@ from . import _turnscan  # noqa: E402
 from ._turnscan import (Calibration, Frame, Intrinsics, Mesh, Reconstruction, Recording, Sensor,
                         Sequence, Simulation, Source, Turntable, set_threads, __version__)
 from .errors import Error, OptionError
+from .rig import Rig
 
 __all__ = ["Calibration", "Error", "Frame", "Frames", "Intrinsics", "Mesh", "OptionError",
-           "Reconstruction", "Recording", "Sensor", "Sequence", "Simulation", "Source", "Stream",
+           "Reconstruction", "Recording", "Rig", "Sensor", "Sequence", "Simulation", "Source", "Stream",
            "Turntable", "batch", "calibrate", "evaluate", "options", "plan", "reconstruct",
            "set_threads", "simulate"]
 

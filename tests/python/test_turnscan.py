@@ -443,11 +443,106 @@ class Wheel(unittest.TestCase):
             self.assertEqual(meshed, "True")
 
 
+class Rigs(unittest.TestCase):
+    """turnscan.Rig and the program that it asks."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.kept = tempfile.TemporaryDirectory(prefix="turnscan-rig-")
+        cls.dir = pathlib.Path(cls.kept.name)
+        cls.token = "a-token-for-tests"
+        (cls.dir / "token").write_text(cls.token)
+        (cls.dir / "token").chmod(0o600)
+        virtual = f"virtual:letter-a?sensor={ROOT / 'tests/e2e/small.toml'}&calibration=true"
+        cls.quick = f"{virtual}&fps=3&speed=24deg/s"
+        cls.slow = f"{virtual}&fps=10&speed=6deg/s&realtime=1&prepared=8"
+        cls.server = subprocess.Popen(
+            [BIN, "serve", cls.dir / "data", "--port", "0", "--token", cls.dir / "token",
+             "--listen", "127.0.0.1", "--voxel-size", "6mm", "--min-free", "0",
+             "--device", cls.quick, "--device", cls.slow],
+            stdout=subprocess.PIPE, text=True)
+        cls.server.stdout.readline()
+        cls.address = cls.server.stdout.readline().split()[1].split("/?")[0]
+        cls.rig = turnscan.Rig(cls.address, token=cls.token)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.terminate()
+        cls.server.communicate()
+        cls.kept.cleanup()
+
+    def test_a_scan_elsewhere_gives_the_bytes_that_are_there(self):
+        self.assertIn(self.quick, [device["uri"] for device in self.rig.devices()])
+        seen = []
+        scan = self.rig.scan(self.quick, progress=lambda phase, part: seen.append((phase, part)))
+        self.assertTrue(seen)
+        self.assertEqual(self.rig.describe(scan)["state"], "done")
+        self.assertIn({"id": scan, "state": "done"}, self.rig.scans())
+        self.assertIn(self.rig.verdict(scan)["objects"][0]["verdict"]["colour"],
+                      ("green", "amber", "red"))
+        path = self.rig.download(scan, "mesh.ply", self.dir / "mine.ply")
+        self.assertEqual(pathlib.Path(path).read_bytes(),
+                         (self.dir / "data" / scan / "mesh.ply").read_bytes())
+        self.assertEqual(self.rig.reconstruct(scan), scan)
+        self.assertEqual(self.rig.wait(scan), scan)
+
+    def test_each_pass_is_asked_for(self):
+        asked = []
+
+        def ask(advice, number):
+            asked.append((bool(advice), number))
+            return len(asked) < 2
+
+        scan = self.rig.scan(self.quick, passes=None, ask=ask)
+        self.assertEqual(asked, [(True, 1), (True, 2)])
+        self.assertEqual(self.rig.describe(scan)["state"], "done")
+        with self.assertRaises(turnscan.Error):
+            self.rig.scan(self.quick, passes=None)
+
+    def test_what_progress_raises_cancels_the_scan(self):
+        class Enough(Exception):
+            pass
+
+        def progress(phase, part):
+            if self.rig.state()["job"]["frames"] > 3:
+                raise Enough
+
+        with self.assertRaises(Enough):
+            self.rig.scan(self.slow, progress=progress)
+        until = time.monotonic() + 60
+        while self.rig.state()["job"]["state"] == "running" and time.monotonic() < until:
+            time.sleep(0.1)
+        self.assertEqual(self.rig.state()["job"]["state"], "cancelled")
+
+    def test_what_is_refused_says_why_and_leaves_no_file(self):
+        for refused, code in ((lambda: self.rig.scan("virtual:nothing"), "invalid-option"),
+                              (lambda: self.rig.verdict("20200101-000000"), "not-found"),
+                              (lambda: self.rig.verdict("../data"), "not-found"),
+                              (lambda: self.rig.download("../..", "passwd"), "not-found"),
+                              (lambda: turnscan.Rig(self.address, token="wrong").scans(), "token"),
+                              (lambda: turnscan.Rig("rig:8470"), "invalid-option"),
+                              (lambda: turnscan.Rig("http://127.0.0.1:1").scans(), "io")):
+            with self.assertRaises(turnscan.Error) as raised:
+                refused()
+            self.assertEqual(raised.exception.code, code, raised.exception)
+        self.assertFalse(pathlib.Path("passwd").exists())
+
+    def test_a_file_that_cannot_be_written_is_an_error_that_names_it(self):
+        scan = self.rig.scan(self.quick)
+        with self.assertRaises(turnscan.Error) as raised:
+            self.rig.download(scan, "mesh.ply", self.dir / "nowhere" / "mesh.ply")
+        self.assertIn("nowhere", str(raised.exception))
+        self.assertEqual(raised.exception.path, str(self.dir / "nowhere" / "mesh.ply"))
+
+
 class Documentation(unittest.TestCase):
     """The Python examples of each page run in order, in one folder, as one program."""
 
-    def run_examples(self, *page):
+    def run_examples(self, *page, **replaced):
         text = (ROOT / "docs").joinpath(*page).read_text()
+        for written, used in replaced.items():
+            self.assertIn(written, text)
+            text = text.replace(written, used)
         blocks = re.findall(r"^```python\n(.*?)^```", text, re.M | re.S)
         path = os.pathsep.join((os.path.dirname(BIN), os.environ.get("PATH", "")))
         with tempfile.TemporaryDirectory() as folder:
@@ -463,6 +558,13 @@ class Documentation(unittest.TestCase):
     def test_examples_of_how_to_pages_run(self):
         for page in ("python.md", "own-driver.md"):
             self.assertGreater(self.run_examples("how-to", page), 0)
+
+    def test_the_example_of_a_rig_runs(self):
+        Rigs.setUpClass()
+        self.addCleanup(Rigs.tearDownClass)
+        self.run_examples("how-to", "serve.md", **{
+            "http://rig:8470\"": f"{Rigs.address}\"", "virtual:doll": Rigs.quick,
+            "4f0c2a7d9e1b3856": Rigs.token})
 
 
 if __name__ == "__main__":

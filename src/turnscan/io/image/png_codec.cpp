@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <turnscan/io/image/frame_size.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/io/image/png_color.hpp>
 #include <turnscan/io/image/png_depth.hpp>
