@@ -8,6 +8,8 @@ import http.client
 import json
 import os
 import pathlib
+import pty
+import re
 import signal
 import socket
 import sys
@@ -218,6 +220,28 @@ class Server(harness.TestCase):
         self.got("GET", "/", status=401, Cookie=cookie[:-1])
         self.got("GET", "/api/v1/state", Cookie=cookie, Host="192.168.1.7")
         self.got("GET", "/api/v1/state", status=421, Cookie=cookie, Host="evil.example")
+
+    def test_a_terminal_shows_the_address_as_a_qr_code(self):
+        terminal, end = pty.openpty()
+        self.addCleanup(os.close, terminal)
+        process = start("serve", "data", "--port", "0", "--listen", "0.0.0.0", "--token", "auto", cwd=self.dir, stdout=end, stderr=end)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        os.close(end)
+        text = b""
+        while b"Ctrl-C" not in text:
+            text += os.read(terminal, 65536)
+        rows = [re.sub("\033\\[[0-9;]*m|\r", "", row) for row in text.decode().splitlines() if "\033" in row]
+        # The light border of four modules, and within it the three corners of a code.
+        size = len(rows[0])
+        self.assertEqual({len(row) for row in rows}, {size})
+        self.assertEqual(len(rows), (size + 1) // 2)
+        self.assertEqual({row[:4] + row[-4:] for row in rows} | set(rows[:2]),
+                         {" " * 8, " " * size})
+        corner = ["█▀▀▀▀▀█", "█ ███ █", "█ ▀▀▀ █"]
+        self.assertEqual([row[4:11] for row in rows[2:5]], corner)
+        self.assertEqual([row[-11:-4] for row in rows[2:5]], corner)
+        self.assertEqual(len([1 for row in rows if row[4:11] == corner[1]]), 2)
 
     def test_no_path_leads_out_of_the_folder(self):
         self.serve()

@@ -9,6 +9,7 @@
 #include "commands/capture_arguments.hpp"
 #include "commands/stage_arguments.hpp"
 #include "serve/http_server.hpp"
+#include "serve/qr_code.hpp"
 #include "serve/routes.hpp"
 
 namespace turnscan::cli {
@@ -101,16 +102,25 @@ class ServeCommand : public Command {
     return access;
   }
 
+  static std::string bracketed(const std::string& host) {
+    return host.find(':') == std::string::npos ? host : fmt::format("[{}]", host);
+  }
+
   /// At once, for people and for scripts that wait for it.
   void say_where(const std::string& folder, const serve::Access& access, int port) const {
     std::string host = listen_;
     if (listen_ == "0.0.0.0" || listen_ == "::") host = process::host_name();
     if (host.empty()) host = "localhost";
-    if (host.find(':') != std::string::npos) host = fmt::format("[{}]", host);
-    const bool printed = token_ == "auto";
-    const std::string text =
-        fmt::format("Scans are in {}\nOpen http://{}:{}/{}{}\nCtrl-C ends the server\n", folder,
-                    host, port, printed ? "?token=" : "", printed ? access.token : "");
+    const std::string page = token_ == "auto" ? fmt::format(":{}/?token={}", port, access.token)
+                                              : fmt::format(":{}/", port);
+    std::string text =
+        fmt::format("Scans are in {}\nOpen http://{}{}\n", folder, bracketed(host), page);
+    // Phones often do not find a machine by its name.
+    const std::string address =
+        listen_ == "0.0.0.0" || listen_ == "::" ? serve::network_address() : listen_;
+    if (!access.loopback && isatty(STDOUT_FILENO) == 1 && !address.empty())
+      text += serve::qr_code(fmt::format("http://{}{}", bracketed(address), page));
+    text += "Ctrl-C ends the server\n";
     std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
   }
