@@ -205,10 +205,28 @@ async function showResult(id) {
     $('files').append(link('report.html', text('open'), {target: '_blank', rel: 'noopener'}));
   document.querySelector('[data-text=files]').hidden = !$('files').children.length;
   $('result-buttons').replaceChildren();
-  if (scan.resume) $('result-buttons').append(element('p', {}, text('resume')), element('code', {}, scan.resume));
-  else if (!names.includes('mesh.glb') && operates)
-    $('result-buttons').append(button(text('reconstruct'), () => act('POST', `scans/${id}/reconstruct`)));
+  const add = (label, action) => operates && $('result-buttons').append(button(label, action));
+  if (scan.state === 'unfinished') {
+    $('result-buttons').append(element('p', {}, text('unfinishedText')));
+    add(text('resume'), () => act('POST', `scans/${id}/resume`));
+  }
+  if (!names.includes('mesh.glb') && ['unfinished', 'recorded'].includes(scan.state))
+    add(text('reconstruct'), () => act('POST', `scans/${id}/reconstruct`));
+  if (scan.state !== 'running') add(text('delete'), () => askToDelete(id));
   await showModel(names.includes('mesh.glb') ? `${API}scans/${id}/files/mesh.glb` : '');
+}
+
+// A second press, on a button that says what it does, since it cannot be taken back.
+function askToDelete(id) {
+  const keep = button(text('keep'), () => showResult(id));
+  const gone = button(text('deleteIt'), async () => {
+    if (!(await act('DELETE', `scans/${id}`))) return;
+    showResult(null);
+    await listScans();
+    $('title').focus();
+  });
+  $('result-buttons').replaceChildren(element('p', {role: 'alert'}, text('deleteText')), keep, gone);
+  keep.focus();
 }
 
 async function showModel(source) {

@@ -14,7 +14,8 @@ const en = {
   lost: 'The server does not answer. This page tries again.', live: 'What the sensor sees',
   advice: 'How to lay the object', model: 'The model in 3D', modelHelp: 'Turn it with a finger, the mouse or the arrow keys; zoom with two fingers or + and −.',
   noModel: 'This browser cannot draw the model in 3D.', green: 'Good', amber: 'Good, with reservations', red: 'Not good',
-  open: 'Report', reconstruct: 'Compute the model', resume: 'It was not finished. It goes on with this command:',
+  open: 'Report', reconstruct: 'Compute the model', unfinishedText: 'It was not finished.', resume: 'Go on recording', delete: 'Delete this scan', deleteIt: 'Delete', keep: 'Keep it',
+  deleteText: 'The recording and everything made of it will be gone.',
   running: 'running', unfinished: 'not finished', recorded: 'recorded', done_: 'done', damaged: 'damaged',
   good: 'good', fair: 'fair', bad: 'bad'
 };
@@ -32,7 +33,8 @@ const es = {
   lost: 'El servidor no responde. Esta página lo intenta de nuevo.', live: 'Lo que ve el sensor',
   advice: 'Cómo colocar el objeto', model: 'El modelo en 3D', modelHelp: 'Gírelo con el dedo, el ratón o las flechas; amplíe con dos dedos o con + y −.',
   noModel: 'Este navegador no puede dibujar el modelo en 3D.', green: 'Bueno', amber: 'Bueno, con reservas', red: 'No es bueno',
-  open: 'Informe', reconstruct: 'Calcular el modelo', resume: 'No se terminó. Continúa con esta orden:',
+  open: 'Informe', reconstruct: 'Calcular el modelo', unfinishedText: 'No se terminó.', resume: 'Seguir grabando', delete: 'Borrar este escaneo', deleteIt: 'Borrar', keep: 'Conservarlo',
+  deleteText: 'Se perderán la grabación y todo lo que se hizo con ella.',
   running: 'en curso', unfinished: 'sin terminar', recorded: 'grabado', done_: 'listo', damaged: 'dañado',
   good: 'bien', fair: 'regular', bad: 'mal'
 };
@@ -50,7 +52,8 @@ const de = {
   lost: 'Der Server antwortet nicht. Diese Seite versucht es erneut.', live: 'Was der Sensor sieht',
   advice: 'So soll das Objekt liegen', model: 'Das Modell in 3D', modelHelp: 'Drehen mit Finger, Maus oder Pfeiltasten; Zoomen mit zwei Fingern oder + und −.',
   noModel: 'Dieser Browser kann das Modell nicht in 3D zeichnen.', green: 'Gut', amber: 'Gut, mit Vorbehalt', red: 'Nicht gut',
-  open: 'Bericht', reconstruct: 'Modell berechnen', resume: 'Nicht beendet. Dieser Befehl setzt fort:',
+  open: 'Bericht', reconstruct: 'Modell berechnen', unfinishedText: 'Nicht beendet.', resume: 'Aufnahme fortsetzen', delete: 'Diesen Scan löschen', deleteIt: 'Löschen', keep: 'Behalten',
+  deleteText: 'Die Aufnahme und alles, was daraus entstand, gehen verloren.',
   running: 'läuft', unfinished: 'nicht beendet', recorded: 'aufgenommen', done_: 'fertig', damaged: 'beschädigt',
   good: 'gut', fair: 'mäßig', bad: 'schlecht'
 };
@@ -68,7 +71,8 @@ const fr = {
   lost: 'Le serveur ne répond pas. Cette page réessaie.', live: 'Ce que voit le capteur',
   advice: 'Comment poser l’objet', model: 'Le modèle en 3D', modelHelp: 'Tournez-le du doigt, à la souris ou avec les flèches ; zoomez à deux doigts ou avec + et −.',
   noModel: 'Ce navigateur ne peut pas dessiner le modèle en 3D.', green: 'Bon', amber: 'Bon, avec réserves', red: 'Pas bon',
-  open: 'Rapport', reconstruct: 'Calculer le modèle', resume: 'Inachevé. Cette commande le continue :',
+  open: 'Rapport', reconstruct: 'Calculer le modèle', unfinishedText: 'Inachevé.', resume: 'Reprendre l’enregistrement', delete: 'Supprimer cette numérisation', deleteIt: 'Supprimer', keep: 'Conserver',
+  deleteText: 'L’enregistrement et tout ce qui en est issu seront perdus.',
   running: 'en cours', unfinished: 'inachevé', recorded: 'enregistré', done_: 'prêt', damaged: 'endommagé',
   good: 'bon', fair: 'moyen', bad: 'mauvais'
 };

@@ -59,10 +59,10 @@ class Rig:
                 raise Error(f"{self._url}: answers with something else than JSON ({failed}); is it "
                             "turnscan serve?", "format") from None
 
-    def _operate(self, path, body=None):
+    def _operate(self, path, body=None, method="POST"):
         """The operator's key lapses after a while without use: it is taken again for each call."""
         self._key = self._json("POST", "operator")["key"]
-        return self._json("POST", path, body)
+        return self._json(method, path, body)
 
     def devices(self):
         """The sensors that can be scanned with: a list of {"uri", "model", "kind"}."""
@@ -96,6 +96,11 @@ class Rig:
         body = {"device": device, **({} if passes is None else {"passes": passes})}
         return self.wait(self._operate("scans", body)["id"], ask=ask, progress=progress)
 
+    def resume(self, scan, *, ask=None, progress=None):
+        """Goes on with a recording that was not finished; without ask it is the last pass."""
+        path = f"scans/{_parse.quote(scan, safe='')}/resume"
+        return self.wait(self._operate(path)["id"], ask=ask, progress=progress)
+
     def reconstruct(self, scan, *, progress=None):
         """Makes meshes and report of a recording again."""
         path = f"scans/{_parse.quote(scan, safe='')}/reconstruct"
@@ -122,8 +127,9 @@ class Rig:
                 if progress:
                     progress(job["phase"], job["fraction"])
                 more = None
-                if job["state"] == "asking" and ask:
-                    more = bool(ask(job["question"]["advice"], job["question"]["pass"]))
+                if job["state"] == "asking":
+                    question = job["question"]
+                    more = bool(ask(question["advice"], question["pass"])) if ask else False
                 _time.sleep(_BETWEEN_LOOKS_S)
             except BaseException:
                 try:
@@ -133,6 +139,10 @@ class Rig:
                 raise
             if more is not None:
                 self._operate("job/answer", {"another_side": more})
+
+    def delete(self, scan):
+        """Deletes a scan, its recording and all that was made of it."""
+        self._operate(f"scans/{_parse.quote(scan, safe='')}", method="DELETE")
 
     def cancel(self):
         """Ends what the rig does; what was recorded is kept."""

@@ -23,6 +23,7 @@ from harness import FAILED, SENSOR, USAGE, run, start
 DEVICE = f"virtual:doll?sensor={SENSOR}&fps=3&speed=24deg/s&calibration=true"
 # A source that takes its time, so that something can happen to it meanwhile.
 SLOW = f"virtual:doll?sensor={SENSOR}&fps=10&speed=6deg/s&calibration=true&realtime=1&prepared=8"
+BRISK = f"virtual:doll?sensor={SENSOR}&fps=10&speed=36deg/s&calibration=true&realtime=1&prepared=8"
 OPTIONS = ("--voxel-size", "4mm", "--min-free", "0")
 SHOTS = os.environ.get("TURNSCAN_SCREENSHOTS")
 SKIPPED = 77
@@ -37,7 +38,7 @@ class Server(harness.TestCase):
         self.operator = {}
 
     def serve(self, *args, folder="data"):
-        self.process = start("serve", folder, "--port", "0", "--device", DEVICE, "--device", SLOW,
+        self.process = start("serve", folder, "--port", "0", "--device", DEVICE, "--device", SLOW, "--device", BRISK,
                              *OPTIONS, *args, cwd=self.dir)
         self.addCleanup(self.kill, self.process)
         self.process.stdout.readline()
@@ -340,6 +341,7 @@ class Server(harness.TestCase):
             if b"200 OK" in peer.recv(4096):
                 break
             self.assertLess(time.monotonic(), deadline)
+        self.wait_for(lambda job: job["frames"] > 0)
         self.assertIn("running", [scan["state"] for scan in self.got("GET", "/api/v1/scans")["scans"]])
         self.got("POST", "/api/v1/job/cancel", status=202)
         self.assertEqual(self.ended()["state"], "cancelled")
@@ -380,10 +382,10 @@ class Server(harness.TestCase):
         self.assertIn("none-of-this-name", job["error"])
         self.assertEqual(list((self.dir / "data").iterdir()), [])
 
-    def end_in_mid_scan(self, how):
+    def end_in_mid_scan(self, how, device=SLOW):
         self.serve()
         self.become_operator()
-        scan = self.start_scan(SLOW)
+        scan = self.start_scan(device)
         self.wait_for(lambda job: job["frames"] > 5)
         peer = socket.create_connection(("127.0.0.1", self.port), 10)
         self.addCleanup(peer.close)
@@ -408,7 +410,50 @@ class Server(harness.TestCase):
         self.assertEqual(self.got("GET", "/api/v1/scans")["scans"], [{"id": scan, "state": "unfinished"}])
         described = self.got("GET", f"/api/v1/scans/{scan}")
         self.assertGreater(described["frames"], 5)
-        self.assertIn("turnscan capture --device", described["resume"])
+        self.assertNotIn(str(self.dir), json.dumps(described))
+
+    def test_the_scan_of_a_killed_server_goes_on_and_can_be_deleted(self):
+        scan, _, _ = self.end_in_mid_scan(signal.SIGKILL, BRISK)
+        before = self.got("GET", f"/api/v1/scans/{scan}")["frames"]
+        path = f"/api/v1/scans/{scan}"
+        for method, where in (("POST", path + "/resume"), ("DELETE", path)):
+            self.got(method, where, status=403)
+        self.become_operator()
+        self.assertEqual(self.got("POST", path + "/resume", status=202), {"id": scan})
+        self.got("DELETE", path, status=409)
+        self.got("POST", path + "/resume", status=409)
+        self.wait_for(lambda job: job["state"] == "asking")
+        self.got("POST", "/api/v1/job/answer", {"another_side": False}, 202)
+        self.assertEqual(self.ended()["state"], "done")
+        described = self.got("GET", path)
+        self.assertEqual(described["state"], "done")
+        self.assertGreater(described["frames"], before)
+        self.assertIn("mesh.3mf", [file["name"] for file in described["files"]])
+        self.got("POST", path + "/resume", status=409)
+        self.got("DELETE", path)
+        self.got("GET", path, status=404)
+        self.got("DELETE", path, status=404)
+        self.assertEqual(list((self.dir / "data").iterdir()), [])
+
+    def test_what_is_not_a_scan_is_neither_deleted_nor_gone_on_with(self):
+        self.serve()
+        self.become_operator()
+        kept = self.dir / "kept"
+        (kept / "recording").mkdir(parents=True)
+        (self.dir / "data" / "20200101-000000").symlink_to(kept)
+        (self.dir / "data" / "Notes").mkdir()
+        for name in ("20200101-000000", "Notes", "..", "%2e%2e", "20200101-000001"):
+            self.assertIn(self.ask("DELETE", f"/api/v1/scans/{name}")[0], (404, 405), name)
+            self.assertIn(self.ask("POST", f"/api/v1/scans/{name}/resume")[0], (404, 405), name)
+        self.assertTrue((kept / "recording").exists())
+        self.assertTrue((self.dir / "data" / "Notes").exists())
+        # A recording that names a device that was not offered: it would open what it likes.
+        run("simulate", "builtin:letter-a", "--frames", "4", "-o", self.dir / "data/a/recording", cwd=self.dir)
+        self.got("POST", "/api/v1/scans/a/resume", status=409)
+        header = self.dir / "data/a/recording/recording.json"
+        header.write_text(header.read_text().replace('"complete": true', '"complete": false'))
+        self.assertEqual(self.got("GET", "/api/v1/scans/a")["state"], "unfinished")
+        self.got("POST", "/api/v1/scans/a/resume", status=400)
 
     def test_the_page_leads_to_a_mesh(self):
         if not browser.find() or not has_page():
@@ -447,6 +492,17 @@ class Server(harness.TestCase):
                 self.assertNotIn("Weiteres Objekt", other.evaluate("document.body.innerText"))
                 self.assertEqual(other.complaints(), [])
                 self.keep(other, f"ready-{width}")
+                self.assertEqual(other.evaluate("document.querySelectorAll('#result-buttons button').length"), 0)
+            # Deleting takes two presses, and the first of the two buttons then keeps it.
+            buttons = "[...document.querySelectorAll('#result-buttons button')].map((b) => b.textContent).join()"
+            last = "[...document.querySelectorAll('#result-buttons button')].at(-1).click()"
+            page.wait(f"{buttons} === 'Delete this scan'")
+            page.evaluate(last)
+            page.wait(f"{buttons} === 'Keep it,Delete'")
+            self.keep(page, "delete-360")
+            page.evaluate(last)
+            page.wait("document.getElementById('result').hidden && document.getElementById('scans').hidden")
+            self.assertEqual(page.complaints(), [])
 
     def keep(self, page, name):
         if SHOTS:

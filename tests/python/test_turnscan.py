@@ -485,6 +485,11 @@ class Rigs(unittest.TestCase):
                          (self.dir / "data" / scan / "mesh.ply").read_bytes())
         self.assertEqual(self.rig.reconstruct(scan), scan)
         self.assertEqual(self.rig.wait(scan), scan)
+        with self.assertRaises(turnscan.Error):
+            self.rig.resume(scan)
+        self.rig.delete(scan)
+        self.assertNotIn(scan, [each["id"] for each in self.rig.scans()])
+        self.assertFalse((self.dir / "data" / scan).exists())
 
     def test_each_pass_is_asked_for(self):
         asked = []

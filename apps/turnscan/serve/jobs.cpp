@@ -59,10 +59,37 @@ Result<std::string> Jobs::start_scan(const std::vector<std::string>& devices,
   TURNSCAN_TRY(check_free());
   TURNSCAN_ASSIGN(const std::string id, store_.create());
   TURNSCAN_ASSIGN(const fs::path folder, store_.folder(id));
-  const ReconstructFiles files = files_in(folder, settings_);
   ScanRequest request = settings_;
   request.setup.devices = devices;
   request.passes = passes;
+  begin_scan(id, std::move(request), folder);
+  return id;
+}
+
+Result<> Jobs::resume_scan(const std::string& id, const std::vector<std::string>& devices) {
+  const std::lock_guard starting(starting_);
+  TURNSCAN_TRY(check_free());
+  TURNSCAN_ASSIGN(const Json scan, store_.describe(id));
+  if (scan["state"] != "unfinished")
+    return fail(ErrorCode::kMissingData, "this scan was finished; there is nothing to go on with");
+  TURNSCAN_ASSIGN(const fs::path folder, store_.folder(id));
+  ScanRequest request = settings_;
+  request.setup.devices = devices;
+  request.setup.options.resume = true;
+  request.passes.reset();
+  begin_scan(id, std::move(request), folder);
+  return {};
+}
+
+Result<> Jobs::remove(const std::string& id) {
+  const std::lock_guard starting(starting_);
+  if (running_id() == id)
+    return fail(ErrorCode::kDeviceBusy, "the rig is at work on this scan; wait for it or cancel");
+  return store_.remove(id);
+}
+
+void Jobs::begin_scan(const std::string& id, ScanRequest request, const fs::path& folder) {
+  const ReconstructFiles files = files_in(folder, settings_);
   request.mesh = files.mesh;
   request.recording = (folder / "recording").string();
   request.report = files.report;
@@ -71,7 +98,6 @@ Result<std::string> Jobs::start_scan(const std::vector<std::string>& devices,
   PhasePlan plan = scan_phases(request);
   start(id, "scan", std::move(plan),
         [this, request = std::move(request)](Job& job) { return scan(request, job); });
-  return id;
 }
 
 Result<> Jobs::start_reconstruction(const std::string& id) {

@@ -37,8 +37,14 @@ class Jobs {
   /// kDeviceBusy while a job runs, and as ScanStore::create().
   Result<std::string> start_scan(const std::vector<std::string>& devices,
                                  std::optional<int> passes);
+  /// Goes on with a recording that was not finished, and asks after each pass. Fails with
+  /// kDeviceBusy, kNotFound, and kMissingData if it was finished.
+  Result<> resume_scan(const std::string& id, const std::vector<std::string>& devices);
   /// Fails with kDeviceBusy, and with kNotFound for an id without a scan.
   Result<> start_reconstruction(const std::string& id);
+  /// Deletes a scan. Fails with kDeviceBusy if the job is at work on it, and as
+  /// ScanStore::remove().
+  Result<> remove(const std::string& id);
   /// Whether the object lies another way now (true), or there is no further pass. Fails with
   /// kMissingData if nobody asks.
   Result<> answer(bool another_side);
@@ -76,6 +82,7 @@ class Jobs {
     std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
     bool ended() const { return state != State::kRunning && state != State::kAsking; }
   };
+  void begin_scan(const std::string& id, ScanRequest request, const std::filesystem::path& folder);
   using Work = std::function<Result<std::vector<std::string>>(Job&)>;
 
   Result<> check_free() const;

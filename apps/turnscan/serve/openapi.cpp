@@ -54,7 +54,6 @@ constexpr const char* kSchemas = R"json({
     "id": {"type": "string"}, "state": {"$ref": "#/components/schemas/ScanState"},
     "started_at": {"type": ["string", "null"]}, "device": {"type": "string"},
     "frames": {"type": "integer"}, "bytes": {"type": "integer"}, "error": {"type": "string"},
-    "resume": {"type": "string", "description": "the command that goes on with it"},
     "files": {"type": "array", "items": {"type": "object", "required": ["name", "bytes", "type"],
       "properties": {"name": {"type": "string"}, "bytes": {"type": "integer"},
         "type": {"type": "string"}}}}}},

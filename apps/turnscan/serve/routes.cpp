@@ -71,9 +71,7 @@ int status_of(ErrorCode code) {
 
 /// A recording that is being made looks unfinished on the disk.
 void mark_running(Json& scan, const std::string& running_id) {
-  if (scan["state"] != "unfinished" || scan["id"] != running_id) return;
-  scan["state"] = "running";
-  scan.erase("resume");
+  if (scan["state"] == "unfinished" && scan["id"] == running_id) scan["state"] = "running";
 }
 
 void set_headers(httplib::Response& response) {
@@ -114,6 +112,13 @@ const std::vector<Route>& routes() {
        true, "NewScan", "Started", 202, &Rig::start_scan},
       {"GET", "/api/v1/scans/{id}", "getScan", "One scan: its files, frames, bytes, state", false,
        "", "Scan", 200, &Rig::scan},
+      {"DELETE", "/api/v1/scans/{id}", "deleteScan",
+       "Delete a scan, its recording and all that was made of it (409: the rig is at work on it)",
+       true, "", "", 200, &Rig::remove},
+      {"POST", "/api/v1/scans/{id}/resume", "resumeScan",
+       "Go on with a recording that was not finished, on the device that it was made with (409: it "
+       "was finished, or the rig is at work)",
+       true, "", "Started", 202, &Rig::resume},
       {"GET", "/api/v1/scans/{id}/verdict", "getVerdict",
        "How good each object of a scan is, and how to lay it for another pass (409: there is no "
        "mesh)",
@@ -298,12 +303,16 @@ Result<Json> Rig::scans(Call&) {
   return Json{{"scans", all}};
 }
 
+Result<> Rig::check_device(Call& call, const Json& device) {
+  TURNSCAN_ASSIGN(const Json known, devices(call));
+  for (const Json& one : known["devices"])
+    if (device.is_string() && one["uri"] == device) return {};
+  return fail(ErrorCode::kInvalidOption, "device: has to be one of /api/v1/devices");
+}
+
 Result<Json> Rig::start_scan(Call& call) {
   const Json device = call.body.value("device", Json()), passes = call.body.value("passes", Json());
-  TURNSCAN_ASSIGN(const Json known, devices(call));
-  bool found = false;
-  for (const Json& one : known["devices"]) found |= device.is_string() && one["uri"] == device;
-  if (!found) return fail(ErrorCode::kInvalidOption, "device: has to be one of /api/v1/devices");
+  TURNSCAN_TRY(check_device(call, device));
   std::optional<int> count;
   if (!passes.is_null()) {
     if (!passes.is_number_integer() || passes < 1 || passes > 100)
@@ -347,6 +356,18 @@ Result<Json> Rig::file(Call& call) {
 Result<Json> Rig::reconstruct(Call& call) {
   TURNSCAN_TRY(jobs_.start_reconstruction(call.names[0]));
   return Json{{"id", call.names[0]}};
+}
+
+Result<Json> Rig::resume(Call& call) {
+  TURNSCAN_ASSIGN(const Json scan, store_.describe(call.names[0]));
+  if (scan["state"] == "unfinished") TURNSCAN_TRY(check_device(call, scan["device"]));
+  TURNSCAN_TRY(jobs_.resume_scan(call.names[0], {scan.value("device", "")}));
+  return Json{{"id", call.names[0]}};
+}
+
+Result<Json> Rig::remove(Call& call) {
+  TURNSCAN_TRY(jobs_.remove(call.names[0]));
+  return Json::object();
 }
 
 Result<Json> Rig::answer_question(Call& call) {

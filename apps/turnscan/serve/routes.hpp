@@ -76,6 +76,8 @@ class Rig {
   Result<Json> verdict(Call& call);
   Result<Json> file(Call& call);
   Result<Json> reconstruct(Call& call);
+  Result<Json> resume(Call& call);
+  Result<Json> remove(Call& call);
   Result<Json> answer_question(Call& call);
   Result<Json> cancel(Call& call);
 
@@ -84,6 +86,8 @@ class Rig {
   void run(const Route& route, Call& call);
   Json state_now() const;
   Json found_devices();
+  /// Fails with kInvalidOption for what is none of /api/v1/devices.
+  Result<> check_device(Call& call, const Json& device);
 
   ScanStore store_;
   std::vector<std::string> given_devices_;

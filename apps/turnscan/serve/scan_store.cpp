@@ -111,6 +111,11 @@ void ScanStore::remove_if_empty(const std::string& id) const {
   if (own) fs::remove(own->path(), ignored);
 }
 
+Result<> ScanStore::remove(const std::string& id) const {
+  TURNSCAN_TRY(scan(id));
+  return root_->remove(id);
+}
+
 Result<file::Folder> ScanStore::scan(const std::string& id) const {
   if (is_id(id))
     if (auto found = root_->subfolder(id)) return found;
@@ -150,9 +155,6 @@ Result<Json> ScanStore::describe(const std::string& id) const {
     out["started_at"] = started == settings.end() ? Json() : Json(started->second);
     out["device"] = recording->header().source;
     out["frames"] = recording->frames().size();
-    if (!recording->complete())
-      out["resume"] = fmt::format("turnscan capture --device '{}' --resume '{}'",
-                                  recording->header().source, path.string());
   } else {
     out["error"] = recording.error().message;
   }

@@ -46,11 +46,13 @@ class ScanStore {
   Result<std::string> create() const;
   /// Removes a folder that nothing was written to.
   void remove_if_empty(const std::string& id) const;
+  /// Deletes a scan with all that was made of it. Fails with kIo.
+  Result<> remove(const std::string& id) const;
 
   /// {id, state} of each, the newest first. state: "unfinished" (its writer was ended; can be gone
   /// on with), "recorded", "done" (judged, with a mesh), "damaged".
   Json list() const;
-  /// The same with device, date, frames, bytes, files and, if unfinished, the command that resumes.
+  /// The same with device, date, frames, bytes and files.
   Result<Json> describe(const std::string& id) const;
   /// {objects: [{name, verdict}], next_pass}. Fails with kMissingData before there is a mesh.
   Result<Json> verdict(const std::string& id) const;
