@@ -8,7 +8,7 @@ endif()
 set(folder "${CMAKE_CURRENT_BINARY_DIR}/i18n")
 set(files "")
 set(entries "")
-foreach(language es)
+foreach(language es de fr)
   set(source "${CMAKE_CURRENT_SOURCE_DIR}/i18n/studio_${language}.ts")
   add_custom_command(OUTPUT "${folder}/studio_${language}.qm"
     COMMAND "${CMAKE_COMMAND}" -E make_directory "${folder}"

@@ -217,9 +217,11 @@ class Server(harness.TestCase):
         self.assertEqual((status, headers["Location"]), (303, "/"))
         self.assertIn("HttpOnly; SameSite=Lax", headers["Set-Cookie"])
         cookie = headers["Set-Cookie"].split(";")[0]
+        self.assertIn(str(self.port), cookie.split("=")[0])  # of another server on this host is another's
         self.got("GET", "/", Cookie="a=b; " + cookie)
         self.got("GET", "/", status=401, Cookie=cookie[:-1])
-        self.got("GET", "/api/v1/state", Cookie=cookie, Host="192.168.1.7")
+        self.got("GET", "/api/v1/state", Cookie=cookie, Host=f"192.168.1.7:{self.port}")
+        self.got("GET", "/api/v1/state", status=401, Cookie=cookie, Host="192.168.1.7:1")
         self.got("GET", "/api/v1/state", status=421, Cookie=cookie, Host="evil.example")
 
     def test_a_terminal_shows_the_address_as_a_qr_code(self):
@@ -465,6 +467,8 @@ class Server(harness.TestCase):
             press = "document.querySelector('#buttons button').click()"
             page.wait(f"{title} === 'Place the object' && document.querySelector('#device').options.length")
             self.keep(page, "place-360")
+            # One that takes its time, so that the page cannot miss the recording.
+            page.evaluate("document.querySelector('#device').selectedIndex = 2")
             page.evaluate(press)
             page.wait(f"{title} === 'Recording'", harness.HANG_S)
             page.wait("!document.getElementById('live').hidden")

@@ -25,7 +25,9 @@ bool is_known(const QString& code) {
 
 std::vector<Language> languages() {
   std::vector<Language> out{{"en", "English"}};
-  const Language translated[] = {{"es", QString::fromUtf8("Español")}};
+  const Language translated[] = {{"es", QString::fromUtf8("Español")},
+                                 {"de", "Deutsch"},
+                                 {"fr", QString::fromUtf8("Français")}};
   for (const Language& each : translated)
     if (QFile::exists(file_of(each.code))) out.push_back(each);
   return out;

@@ -68,7 +68,6 @@ QVBoxLayout* Mode::add_tab(const QString& title) {
 void Mode::set_tree(QWidget* tree) {
   auto* panel = new QWidget(split_);
   panel->setObjectName("tree_panel");
-  panel->setMinimumWidth(232);
   auto* layout = new QVBoxLayout(panel);
   layout->setContentsMargins(4, 12, 4, 4);
   layout->addWidget(tree);

@@ -48,7 +48,7 @@ bool is_own_host(const Access& access, const std::string& host) {
 
 std::string cookie(const httplib::Request& request) {
   const std::string all = "; " + request.get_header_value("Cookie");
-  const std::string key = std::string("; ") + kTokenCookie + "=";
+  const std::string key = "; " + token_cookie(request) + "=";
   const auto at = all.find(key);
   if (at == std::string::npos) return "";
   const std::string rest = all.substr(at + key.size());
@@ -65,6 +65,13 @@ bool has_token(const Access& access, const httplib::Request& request) {
 }
 
 }  // namespace
+
+std::string token_cookie(const httplib::Request& request) {
+  const std::string host = request.get_header_value("Host");
+  const std::string port = host.substr(host.rfind(':') + 1);
+  const bool number = port.find_first_not_of("0123456789") == std::string::npos;
+  return "turnscan_token_" + (number && host.find(':') != std::string::npos ? port : "80");
+}
 
 bool Access::is_loopback(const std::string& address) {
   in_addr ip{};

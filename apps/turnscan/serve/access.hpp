@@ -31,7 +31,8 @@ struct Refusal {
 /// Why a request is refused, before its body is read.
 std::optional<Refusal> refusal(const Access& access, const httplib::Request& request);
 
-/// The name of the cookie that holds the token.
-inline constexpr const char* kTokenCookie = "turnscan_token";
+/// The name of the cookie that holds the token: one for each port, since browsers send the cookies
+/// of a host to all of them.
+std::string token_cookie(const httplib::Request& request);
 
 }  // namespace turnscan::serve

@@ -173,7 +173,7 @@ void Rig::answer(const httplib::Request& request, httplib::Response& response) {
 void Rig::show_page(const httplib::Request& request, httplib::Response& response) const {
   if (request.has_param("token")) {  // which must not stay in the address
     response.set_header("Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Lax; Path=/",
-                                                  kTokenCookie, access_.token));
+                                                  token_cookie(request), access_.token));
     response.set_redirect("/", 303);
     return;
   }
