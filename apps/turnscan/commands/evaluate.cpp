@@ -2,9 +2,12 @@
 #include <turnscan/evaluation/evaluate.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
+#include <turnscan/io/text/json_bytes.hpp>
 #include <turnscan/recording/recording.hpp>
 
 #include <turnscan/workflow/artefact_input.hpp>
+#include <turnscan/workflow/inspection/element_file.hpp>
+#include <turnscan/workflow/inspection/element_output.hpp>
 #include <turnscan/workflow/output_file.hpp>
 #include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/simulation/seen_by.hpp>
@@ -39,10 +42,16 @@ class EvaluateCommand : public Command {
   void declare(CommandLine& line) override {
     line.positional("MESH", mesh_,
                     "Mesh to evaluate; with --artefact also a point cloud (.ply, .pcd)");
-    line.option("--reference", "MESH", reference_, "The true surface. Required without --artefact");
+    line.option("--reference", "MESH", reference_,
+                "The true surface. Required without --artefact or --elements");
     line.option("--seen-from", "RECORDING", seen_from_,
                 "Evaluate completeness only where the frames of this recording saw the reference, "
                 "which must lie in the recording's table frame");
+    line.option("--elements", "FILE.json", elements_,
+                "Fit the spheres, cylinders, cones, planes, circles and lines of this file to the "
+                "mesh, after --align if given, and measure their distances and angles");
+    line.option("--elements-csv", "FILE.csv", elements_csv_,
+                "Write the figures of --elements as a table");
     line.option("--json", "FILE.json", json_, "Write the figures as JSON");
     line.option("--error-map", "FILE.ply", error_map_, "Write the mesh coloured by its error");
     line.option("--unit", "UNIT", unit_, "Unit of MESH if its file does not say it: mm, m, ...");
@@ -52,38 +61,32 @@ class EvaluateCommand : public Command {
     line.group("error-map", "Error map", describe(map_options_));
     line.group("artefact", "Artefact", describe(artefact_));
     line.common({"reference", "align", "seen-from", "thresholds", "error-map", "json", "unit",
-                 "reference-unit", "samples", "tolerance", "artefact"});
+                 "reference-unit", "samples", "tolerance", "artefact", "elements", "elements-csv"});
   }
 
   FileRoles files() const override {
-    return {{mesh_, reference_, seen_from_}, {json_, error_map_}};
+    return {{mesh_, reference_, seen_from_, elements_}, {json_, error_map_, elements_csv_}};
   }
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(error_map_, ".ply"));
+    TURNSCAN_TRY(check_output_file(elements_csv_, ".csv"));
     TURNSCAN_ASSIGN(const auto unit, unit_of(unit_));
     if (artefact_.artefact != Artefact::kNone) return run_artefact(unit, session);
-    if (artefact_.diameter_m || artefact_.spacing_m)
-      return fail(ErrorCode::kInvalidOption,
-                  "evaluate: --ball-diameter and --ball-spacing describe an artefact; choose one "
-                  "with --artefact ball or ball-bar");
-    if (reference_.empty())
-      return fail(ErrorCode::kInvalidOption,
-                  "evaluate: there is nothing to compare with; give --reference, or --artefact for "
-                  "the scan of a ball, ball bar or plate");
-    session.plan(
-        joined({evaluate_phases(options_), seen_from_.empty() ? PhasePlan() : seen_phases()}));
-    TURNSCAN_ASSIGN(const auto reference_unit, unit_of(reference_unit_));
+    TURNSCAN_TRY(check_combination());
+    ElementPlan elements;
+    if (!elements_.empty()) {
+      TURNSCAN_ASSIGN(elements, workflow::read_elements(elements_, session.context()));
+    }
+    session.plan(phases());
     TURNSCAN_ASSIGN(TriangleMesh mesh, read_mesh(mesh_, {unit}, session.context()));
-    TURNSCAN_ASSIGN(const TriangleMesh reference,
-                    read_mesh(reference_, {reference_unit}, session.context()));
-    TURNSCAN_ASSIGN(const Evaluation result, judge(mesh, reference, session.context()));
-    if (!error_map_.empty())
-      TURNSCAN_TRY(write_error_map(std::move(mesh), reference, result, session.context()));
-    if (!json_.empty()) TURNSCAN_TRY(write_file_atomically(json_, to_json(result)));
-    session.print("{}", evaluation_text(result));
-    for (const std::string& file : {json_, error_map_}) {
+    std::string text, json;
+    if (!reference_.empty()) TURNSCAN_TRY(compare(mesh, text, json, session.context()));
+    if (!elements_.empty()) TURNSCAN_TRY(measure(mesh, elements, text, json, session.context()));
+    if (!json_.empty()) TURNSCAN_TRY(write_file_atomically(json_, json));
+    session.print("{}", text);
+    for (const std::string& file : {json_, error_map_, elements_csv_}) {
       if (!file.empty()) session.print("Wrote {}\n", file);
     }
     return {};
@@ -93,7 +96,7 @@ class EvaluateCommand : public Command {
   Result<> run_artefact(std::optional<double> unit, Session& session) const {
     for (const auto& [name, value] :
          {std::pair("--reference", &reference_), std::pair("--seen-from", &seen_from_),
-          std::pair("--error-map", &error_map_)}) {
+          std::pair("--error-map", &error_map_), std::pair("--elements", &elements_)}) {
       if (!value->empty())
         return fail(ErrorCode::kInvalidOption,
                     "evaluate: {} cannot be combined with --artefact, which needs no reference; "
@@ -107,6 +110,60 @@ class EvaluateCommand : public Command {
     if (!json_.empty()) TURNSCAN_TRY(write_file_atomically(json_, to_json(figures)));
     session.print("{}", artefact_text(figures));
     if (!json_.empty()) session.print("Wrote {}\n", json_);
+    return {};
+  }
+
+  Result<> check_combination() const {
+    if (artefact_.diameter_m || artefact_.spacing_m)
+      return fail(ErrorCode::kInvalidOption,
+                  "evaluate: --ball-diameter and --ball-spacing describe an artefact; choose one "
+                  "with --artefact ball or ball-bar");
+    if (!elements_csv_.empty() && elements_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "evaluate: --elements-csv has nothing to write; give --elements");
+    if (!reference_.empty()) return {};
+    if (elements_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "evaluate: there is nothing to compare with; give --reference, --elements, or "
+                  "--artefact for the scan of a ball, ball bar or plate");
+    for (const auto& [name, value] :
+         {std::pair("--seen-from", &seen_from_), std::pair("--error-map", &error_map_)})
+      if (!value->empty())
+        return fail(ErrorCode::kInvalidOption, "evaluate: {} needs --reference", name);
+    if (options_.align != Align::kNone)
+      return fail(ErrorCode::kInvalidOption, "evaluate: --align needs --reference");
+    return {};
+  }
+
+  PhasePlan phases() const {
+    PhasePlan plan;
+    if (!reference_.empty()) plan = evaluate_phases(options_);
+    if (!seen_from_.empty()) plan = joined({plan, seen_phases()});
+    if (!elements_.empty()) plan.push_back({"elements"});
+    return plan;
+  }
+
+  /// Compares with the reference, and moves the mesh onto it.
+  Result<> compare(TriangleMesh& mesh, std::string& text, std::string& json,
+                   const RunContext& context) const {
+    TURNSCAN_ASSIGN(const auto reference_unit, unit_of(reference_unit_));
+    TURNSCAN_ASSIGN(const TriangleMesh reference, read_mesh(reference_, {reference_unit}, context));
+    TURNSCAN_ASSIGN(const Evaluation result, judge(mesh, reference, context));
+    if (result.aligned) mesh = transformed(mesh, result.T_reference_mesh);
+    if (!error_map_.empty()) TURNSCAN_TRY(write_error_map(mesh, reference, result, context));
+    text += evaluation_text(result);
+    json = to_json(result);
+    return {};
+  }
+
+  Result<> measure(const TriangleMesh& mesh, const ElementPlan& plan, std::string& text,
+                   std::string& json, const RunContext& context) const {
+    TURNSCAN_ASSIGN(const ElementReport report, measure_elements(mesh, plan, context));
+    text += workflow::elements_text(report);
+    const std::string own = workflow::elements_json(report);
+    json = json.empty() ? own : text::with_json_member(std::move(json), "inspection", own);
+    if (!elements_csv_.empty())
+      TURNSCAN_TRY(write_file_atomically(elements_csv_, workflow::elements_csv(report)));
     return {};
   }
 
@@ -125,13 +182,13 @@ class EvaluateCommand : public Command {
     for (const ThresholdScore& score : result.scores) {
       if (!map_options_.scale_m) scale = std::max(scale, score.threshold_m);
     }
-    mesh = transformed(mesh, result.T_reference_mesh);
     mesh.normals.clear();
     TURNSCAN_ASSIGN(const TriangleMesh colored, color_by_error(mesh, reference, scale, context));
     return write_mesh(error_map_, colored);
   }
 
   std::string mesh_, reference_, seen_from_, json_, error_map_, unit_, reference_unit_;
+  std::string elements_, elements_csv_;
   EvaluateOptions options_;
   ErrorMapOptions map_options_;
   ArtefactOptions artefact_;

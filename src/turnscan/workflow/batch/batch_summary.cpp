@@ -7,7 +7,7 @@
 #include <turnscan/core/version.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/text/json_fields.hpp>
-#include <turnscan/io/text/text_fields.hpp>
+#include <turnscan/io/text/sheet_field.hpp>
 
 namespace turnscan::batch {
 
@@ -76,19 +76,6 @@ std::vector<std::string> option_names(const BatchSummary& summary) {
   return {names.begin(), names.end()};
 }
 
-/// A field of one line that no spreadsheet takes for a formula: it begins with an apostrophe then.
-std::string shown_field(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-  const char first = text.empty() ? ' ' : text.front();
-  // -5mm and +1e-3 stay what they are.
-  constexpr std::string_view kOfNumbers = "0123456789abcdefghijklmnopqrstuvwxyzE.,;+-%_";
-  const bool number = text.find_first_not_of(kOfNumbers) == std::string::npos;
-  if (first == '=' || first == '@' || ((first == '+' || first == '-') && !number))
-    text.insert(0, 1, '\'');
-  return text::csv_field(text);
-}
-
 double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; }
 
 }  // namespace
@@ -118,21 +105,22 @@ std::string summary_csv(const BatchSummary& summary) {
   std::string text =
       "name,state,verdict,objects,triangles,watertight,frames,seconds,cpu_seconds,peak_mb,attempts,"
       "host,reason,inputs";
-  for (const std::string& name : names) text += "," + shown_field(name);
+  for (const std::string& name : names) text += "," + text::sheet_field(name);
   text += "\n";
   for (const SummaryRow& row : summary.rows) {
     const TaskRecord& r = row.record;
     const bool done = r.state == TaskState::kDone;
-    text += fmt::format("{},{},{},", shown_field(row.task->name), name_of(r.state),
-                        shown_field(row.facts.verdict));
+    text += fmt::format("{},{},{},", text::sheet_field(row.task->name), name_of(r.state),
+                        text::sheet_field(row.facts.verdict));
     text += done ? fmt::format("{},{},{},{},", row.facts.objects, row.facts.triangles,
                                row.facts.watertight ? "yes" : "no", row.facts.frames)
                  : ",,,,";
-    text +=
-        fmt::format("{:.3f},{:.3f},{:.1f},{},{},{},{}", r.seconds, r.cpu_seconds,
-                    megabytes(r.peak_bytes), r.attempts, shown_field(r.host), shown_field(r.reason),
-                    shown_field(fmt::format("{}", fmt::join(row.task->inputs, ";"))));
-    for (const std::string& name : names) text += "," + shown_field(option_value(*row.task, name));
+    text += fmt::format("{:.3f},{:.3f},{:.1f},{},{},{},{}", r.seconds, r.cpu_seconds,
+                        megabytes(r.peak_bytes), r.attempts, text::sheet_field(r.host),
+                        text::sheet_field(r.reason),
+                        text::sheet_field(fmt::format("{}", fmt::join(row.task->inputs, ";"))));
+    for (const std::string& name : names)
+      text += "," + text::sheet_field(option_value(*row.task, name));
     text += "\n";
   }
   return text;
