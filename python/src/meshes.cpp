@@ -56,6 +56,15 @@ py::object evaluate_mesh(const MeshObject& mesh, const MeshObject& reference,
   return py::module_::import("json").attr("loads")(to_json(result));
 }
 
+/// Takes and gives Python's objects for JSON.
+py::object inspect_mesh(const MeshObject& mesh, const py::object& elements,
+                        const py::object& progress) {
+  const py::module_ json = py::module_::import("json");
+  const auto text = json.attr("dumps")(elements).cast<std::string>();
+  return json.attr("loads")(call(
+      progress, [&](const RunContext& context) { return inspect(*mesh.mesh, text, context); }));
+}
+
 }  // namespace
 
 WriteMeshOptions mesh_options_of(const std::string& up) {
@@ -102,6 +111,8 @@ void bind_meshes(py::module_& module) {
                            self.mesh->triangles.size());
       });
   module.def("evaluate", &evaluate_mesh, py::arg("mesh"), py::arg("reference"),
+             py::arg("progress") = py::none());
+  module.def("inspect", &inspect_mesh, py::arg("mesh"), py::arg("elements"),
              py::arg("progress") = py::none());
   module.def("_evaluate_options", [] { return described(evaluate_options()); });
 }

@@ -33,8 +33,8 @@ from .rig import Rig
 
 __all__ = ["Calibration", "Error", "Frame", "Frames", "Intrinsics", "Mesh", "OptionError",
            "Reconstruction", "Recording", "Rig", "Sensor", "Sequence", "Simulation", "Source", "Stream",
-           "Turntable", "batch", "calibrate", "evaluate", "options", "plan", "reconstruct",
-           "set_threads", "simulate"]
+           "Turntable", "batch", "calibrate", "evaluate", "inspect", "options", "plan",
+           "reconstruct", "set_threads", "simulate"]
 
 _NO_RETURN, _LARGEST = 0, 65534  # 65535 means a return outside the crop
 
@@ -139,6 +139,14 @@ def plan(objects, *, scanners, out=None, unit="", progress=None, **options):
 def evaluate(mesh, reference, *, progress=None, **options):
     """How far a mesh is from a reference: the figures of `turnscan evaluate --json` as a dict."""
     return _turnscan.evaluate(mesh, reference, progress, **options)
+
+
+def inspect(mesh, elements, *, progress=None):
+    """Fits elements to a mesh and measures their distances and angles: the figures of
+    `turnscan evaluate --elements --json` as a dict.
+
+    elements: what the file of --elements holds, as a dict of lists and dicts."""
+    return _turnscan.inspect(mesh, elements, progress)
 
 
 def batch(inputs, out, *, command="", sweep=(), engine=(), program="turnscan", progress=None,

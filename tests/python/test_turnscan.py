@@ -255,6 +255,20 @@ class Reconstructing(InAFolder):
         with self.assertRaises(turnscan.Error):
             stream.finish()
 
+    def test_elements_are_fitted_to_a_mesh_of_arrays(self):
+        u, v = np.meshgrid(np.arange(11), np.arange(11))
+        vertices = np.stack([u, v, 0 * u + 3], -1).reshape(-1, 3) * 1e-3
+        at = (u + 11 * v)[:-1, :-1].ravel()
+        triangles = np.concatenate([np.stack([at, at + 1, at + 12], 1), np.stack([at, at + 12, at + 11], 1)])
+        mesh = turnscan.Mesh(vertices, triangles)
+        plane = {"name": "top", "type": "plane", "point_mm": [5, 5, 2.9], "direction": [0, 0, 1], "within_mm": 1}
+        figures = turnscan.inspect(mesh, {"elements": [plane]})["elements"][0]
+        self.assertEqual((figures["type"], figures["points"]), ("plane", 121))
+        self.assertAlmostEqual(figures["z_m"]["value"], 3e-3, delta=1e-9)
+        self.assertAlmostEqual(figures["z_m"]["deviation"], 0.1e-3, delta=1e-9)
+        with self.assertRaisesRegex(turnscan.Error, "element 'top'"):
+            turnscan.inspect(mesh, {"elements": [{**plane, "within_mm": -1}]})
+
     def test_progress_is_told_and_what_it_raises_cancels(self):
         phases = []
         turnscan.reconstruct(self.recording, progress=lambda phase, part: phases.append(part),

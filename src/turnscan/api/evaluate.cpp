@@ -1,6 +1,8 @@
 #include <turnscan/api/evaluate.hpp>
 #include <turnscan/api/named_options.hpp>
 #include <turnscan/evaluation/evaluate.hpp>
+#include <turnscan/workflow/inspection/element_file.hpp>
+#include <turnscan/workflow/inspection/element_output.hpp>
 
 namespace turnscan {
 
@@ -14,6 +16,13 @@ Result<Evaluation> evaluate(const TriangleMesh& mesh, const TriangleMesh& refere
 std::vector<OptionDescription> evaluate_options() {
   EvaluateOptions chosen;
   return api::describe_fields(describe(chosen));
+}
+
+Result<std::string> inspect(const TriangleMesh& mesh, std::string_view elements,
+                            const RunContext& context) {
+  TURNSCAN_ASSIGN(const ElementPlan plan, workflow::parse_elements(elements, context));
+  TURNSCAN_ASSIGN(const ElementReport report, measure_elements(mesh, plan, context));
+  return workflow::elements_json(report);
 }
 
 }  // namespace turnscan

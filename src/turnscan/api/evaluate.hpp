@@ -1,6 +1,8 @@
 #pragma once
 // How well a mesh agrees with a reference: what `turnscan evaluate` does.
 
+#include <string>
+#include <string_view>
 #include <turnscan/api/options.hpp>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
@@ -21,5 +23,13 @@ Result<Evaluation> evaluate(const TriangleMesh& mesh, const TriangleMesh& refere
 
 /// The options of evaluate().
 std::vector<OptionDescription> evaluate_options();
+
+/// Fits elements (spheres, cylinders, cones, planes, circles, lines) to a mesh, and measures their
+/// distances and angles: what `turnscan evaluate --elements --json` does. `elements` is the JSON
+/// text of its file, the result that of its figures; docs/reference/evaluation.md describes both.
+/// Fails with kFormat (the text or the mesh), kTooFewPoints and kInvalidOption, and names the
+/// element; kCancelled.
+Result<std::string> inspect(const TriangleMesh& mesh, std::string_view elements,
+                            const RunContext& context = {});
 
 }  // namespace turnscan
