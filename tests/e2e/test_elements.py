@@ -55,6 +55,11 @@ class Elements(harness.TestCase):
         self.assertIn("accuracy", figures)
         self.assertEqual(figures["inspection"]["elements"][0]["name"], "left")
 
+    def test_at_its_ends_a_ball_bar_is_as_thick_as_it_is_long(self):
+        result = self.ok("evaluate", self.mesh, "--thickness-map", "walls.ply")
+        self.assertRegex(result.stdout, r"Walls: [\d.]+mm thin at least, 3[78](\.\d+)?mm in the mean, 190mm at most")
+        self.assertIn(b"property uchar red", (self.dir / "walls.ply").read_bytes()[:500])
+
     def test_errors_name_the_element_and_write_nothing(self):
         before = self.files()
         for wrong, says in (({**ball("left", -1), "type": "ball"}, "element 'left': its type 'ball' is none of"),

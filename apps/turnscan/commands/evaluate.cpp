@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <turnscan/core/figure_text.hpp>
 #include <turnscan/evaluation/evaluate.hpp>
+#include <turnscan/evaluation/inspection/deviations.hpp>
+#include <turnscan/evaluation/inspection/thickness.hpp>
 #include <turnscan/io/file/atomic_file.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 #include <turnscan/io/text/json_bytes.hpp>
@@ -20,7 +23,7 @@ namespace turnscan::cli {
 namespace {
 
 struct ErrorMapOptions {
-  std::optional<double> scale_m;
+  std::optional<double> scale_m, thickness_scale_m;
 };
 
 OptionTable describe(ErrorMapOptions& o) {
@@ -28,6 +31,9 @@ OptionTable describe(ErrorMapOptions& o) {
   table.number(
       "error-scale", o.scale_m, Quantity::kLength, {1e-6, 1.0},
       "Error at the end of the colour scale of the error map; auto: the largest threshold");
+  table.number("thickness-scale", o.thickness_scale_m, Quantity::kLength, {1e-6, 10.0},
+               "Thickness at the end of the colour scale of the thickness map; auto: the thickest "
+               "wall");
   return table;
 }
 
@@ -43,7 +49,8 @@ class EvaluateCommand : public Command {
     line.positional("MESH", mesh_,
                     "Mesh to evaluate; with --artefact also a point cloud (.ply, .pcd)");
     line.option("--reference", "MESH", reference_,
-                "The true surface. Required without --artefact or --elements");
+                "The true surface. Required without --artefact, --elements or "
+                "--thickness-map");
     line.option("--seen-from", "RECORDING", seen_from_,
                 "Evaluate completeness only where the frames of this recording saw the reference, "
                 "which must lie in the recording's table frame");
@@ -52,26 +59,30 @@ class EvaluateCommand : public Command {
                 "mesh, after --align if given, and measure their distances and angles");
     line.option("--elements-csv", "FILE.csv", elements_csv_,
                 "Write the figures of --elements as a table");
+    line.option("--thickness-map", "FILE.ply", thickness_map_,
+                "Write the mesh coloured by the thickness of its walls; thin ones are yellow");
     line.option("--json", "FILE.json", json_, "Write the figures as JSON");
     line.option("--error-map", "FILE.ply", error_map_, "Write the mesh coloured by its error");
     line.option("--unit", "UNIT", unit_, "Unit of MESH if its file does not say it: mm, m, ...");
     line.option("--reference-unit", "UNIT", reference_unit_, "The same for the reference");
     line.allow_config();
     line.group("evaluation", "Evaluation", describe(options_));
-    line.group("error-map", "Error map", describe(map_options_));
+    line.group("error-map", "Maps", describe(map_options_));
     line.group("artefact", "Artefact", describe(artefact_));
     line.common({"reference", "align", "seen-from", "thresholds", "error-map", "json", "unit",
                  "reference-unit", "samples", "tolerance", "artefact", "elements", "elements-csv"});
   }
 
   FileRoles files() const override {
-    return {{mesh_, reference_, seen_from_, elements_}, {json_, error_map_, elements_csv_}};
+    return {{mesh_, reference_, seen_from_, elements_},
+            {json_, error_map_, elements_csv_, thickness_map_}};
   }
 
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     TURNSCAN_TRY(check_output_file(error_map_, ".ply"));
     TURNSCAN_TRY(check_output_file(elements_csv_, ".csv"));
+    TURNSCAN_TRY(check_output_file(thickness_map_, ".ply"));
     TURNSCAN_ASSIGN(const auto unit, unit_of(unit_));
     if (artefact_.artefact != Artefact::kNone) return run_artefact(unit, session);
     TURNSCAN_TRY(check_combination());
@@ -84,9 +95,11 @@ class EvaluateCommand : public Command {
     std::string text, json;
     if (!reference_.empty()) TURNSCAN_TRY(compare(mesh, text, json, session.context()));
     if (!elements_.empty()) TURNSCAN_TRY(measure(mesh, elements, text, json, session.context()));
+    if (!thickness_map_.empty())
+      TURNSCAN_TRY(map_thickness(std::move(mesh), text, session.context()));
     if (!json_.empty()) TURNSCAN_TRY(write_file_atomically(json_, json));
     session.print("{}", text);
-    for (const std::string& file : {json_, error_map_, elements_csv_}) {
+    for (const std::string& file : {json_, error_map_, elements_csv_, thickness_map_}) {
       if (!file.empty()) session.print("Wrote {}\n", file);
     }
     return {};
@@ -96,7 +109,8 @@ class EvaluateCommand : public Command {
   Result<> run_artefact(std::optional<double> unit, Session& session) const {
     for (const auto& [name, value] :
          {std::pair("--reference", &reference_), std::pair("--seen-from", &seen_from_),
-          std::pair("--error-map", &error_map_), std::pair("--elements", &elements_)}) {
+          std::pair("--error-map", &error_map_), std::pair("--elements", &elements_),
+          std::pair("--thickness-map", &thickness_map_)}) {
       if (!value->empty())
         return fail(ErrorCode::kInvalidOption,
                     "evaluate: {} cannot be combined with --artefact, which needs no reference; "
@@ -122,10 +136,10 @@ class EvaluateCommand : public Command {
       return fail(ErrorCode::kInvalidOption,
                   "evaluate: --elements-csv has nothing to write; give --elements");
     if (!reference_.empty()) return {};
-    if (elements_.empty())
+    if (elements_.empty() && thickness_map_.empty())
       return fail(ErrorCode::kInvalidOption,
-                  "evaluate: there is nothing to compare with; give --reference, --elements, or "
-                  "--artefact for the scan of a ball, ball bar or plate");
+                  "evaluate: there is nothing to compare with; give --reference, --elements, "
+                  "--thickness-map, or --artefact for the scan of a ball, ball bar or plate");
     for (const auto& [name, value] :
          {std::pair("--seen-from", &seen_from_), std::pair("--error-map", &error_map_)})
       if (!value->empty())
@@ -140,6 +154,7 @@ class EvaluateCommand : public Command {
     if (!reference_.empty()) plan = evaluate_phases(options_);
     if (!seen_from_.empty()) plan = joined({plan, seen_phases()});
     if (!elements_.empty()) plan.push_back({"elements"});
+    if (!thickness_map_.empty()) plan.push_back({"thickness"});
     return plan;
   }
 
@@ -167,6 +182,21 @@ class EvaluateCommand : public Command {
     return {};
   }
 
+  Result<> map_thickness(TriangleMesh mesh, std::string& text, const RunContext& context) const {
+    TURNSCAN_ASSIGN(const std::vector<float> thickness, wall_thicknesses(mesh, context));
+    const DeviationFigures figures = deviation_figures(thickness, surface_shares(mesh), 0.0);
+    if (figures.count == 0)
+      return fail(ErrorCode::kMissingData,
+                  "evaluate: no wall of the mesh has two sides; close its holes first");
+    text += fmt::format("Walls: {} thin at least, {} in the mean, {} at most\n",
+                        length_text(figures.lowest_m), length_text(figures.mean_m),
+                        length_text(figures.highest_m));
+    return write_mesh(
+        thickness_map_,
+        color_by_thickness(std::move(mesh), thickness,
+                           map_options_.thickness_scale_m.value_or(figures.highest_m)));
+  }
+
   Result<Evaluation> judge(const TriangleMesh& mesh, const TriangleMesh& reference,
                            const RunContext& context) const {
     if (seen_from_.empty()) return evaluate(mesh, reference, options_, {}, context);
@@ -188,7 +218,7 @@ class EvaluateCommand : public Command {
   }
 
   std::string mesh_, reference_, seen_from_, json_, error_map_, unit_, reference_unit_;
-  std::string elements_, elements_csv_;
+  std::string elements_, elements_csv_, thickness_map_;
   EvaluateOptions options_;
   ErrorMapOptions map_options_;
   ArtefactOptions artefact_;
