@@ -60,6 +60,12 @@ class Elements(harness.TestCase):
         self.assertRegex(result.stdout, r"Walls: [\d.]+mm thin at least, 3[78](\.\d+)?mm in the mean, 190mm at most")
         self.assertIn(b"property uchar red", (self.dir / "walls.ply").read_bytes()[:500])
 
+    def test_a_report_has_the_elements(self):
+        self.write(elements=[ball("<left>", -1)])
+        self.ok("report", self.mesh, "--elements", "elements.json", "--out", "bar.html")
+        page = (self.dir / "bar.html").read_text()
+        self.assertIn("&lt;left&gt;</th><td>diameter</td>", page)
+
     def test_errors_name_the_element_and_write_nothing(self):
         before = self.files()
         for wrong, says in (({**ball("left", -1), "type": "ball"}, "element 'left': its type 'ball' is none of"),

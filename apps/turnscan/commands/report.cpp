@@ -5,6 +5,7 @@
 #include <turnscan/io/mesh/mesh_io.hpp>
 
 #include <turnscan/workflow/input.hpp>
+#include <turnscan/workflow/inspection/element_file.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
 #include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
@@ -31,14 +32,17 @@ class ReportCommand : public Command {
                 "with their reasons, notes");
     line.option("--reference", "MESH", reference_,
                 "The true surface: the page then shows the deviation from it");
+    line.option("--elements", "FILE.json", elements_,
+                "Elements to fit to the (first) object, see turnscan evaluate: the page then has "
+                "their figures");
     line.option("--title", "TEXT", title_, "Title of the page, by default the name of the input");
     line.allow_config();
     line.group("evaluation", "Comparison with the reference", describe(evaluate_));
-    line.common(
-        {"out", "made-by", "reference", "title", "align", "thresholds", "tolerance", "import"});
+    line.common({"out", "made-by", "reference", "title", "align", "thresholds", "tolerance",
+                 "import", "elements"});
   }
 
-  FileRoles files() const override { return {{path_, report_, reference_}, {out_}}; }
+  FileRoles files() const override { return {{path_, report_, reference_, elements_}, {out_}}; }
 
   Result<> run(Session& session) override {
     TURNSCAN_ASSIGN(const ReportFiles names, sort_report_files({out_}));
@@ -46,12 +50,20 @@ class ReportCommand : public Command {
       return fail_at(out_, ErrorCode::kInvalidOption, "the name must end in .html; rename it");
     TURNSCAN_TRY(check_report_files(names));
     TURNSCAN_TRY(file::check_exists(path_, "file or folder"));
+    ElementPlan elements;
+    if (!elements_.empty()) {
+      TURNSCAN_ASSIGN(elements, workflow::read_elements(elements_, session.context()));
+    }
     session.plan(page_phases());
     TURNSCAN_ASSIGN(PageInput input, read_input(session));
     if (!title_.empty()) input.title = title_;
     if (!reference_.empty()) {
       TURNSCAN_ASSIGN(const TriangleMesh reference, read_mesh(reference_, {}, session.context()));
       TURNSCAN_TRY(compare_with(input, reference, evaluate_, session.context()));
+    }
+    if (!elements_.empty() && !input.objects.empty()) {
+      TURNSCAN_ASSIGN(input.elements,
+                      measure_elements(input.objects.front().mesh, elements, session.context()));
     }
     TURNSCAN_ASSIGN(const ReportPage page, write_page(out_, input, session.context()));
     if (!page.has_viewer)
@@ -104,7 +116,7 @@ class ReportCommand : public Command {
   }
 
   std::vector<std::string> import_;
-  std::string path_, out_, report_, reference_, title_;
+  std::string path_, out_, report_, reference_, elements_, title_;
   EvaluateOptions evaluate_;
 };
 

@@ -203,6 +203,23 @@ TEST(Page, OfAComparisonHasSignedDeviations) {
   EXPECT_THAT(html, Holds("Deviation over the height"));
 }
 
+TEST(Page, OfElementsHasTheirFigures) {
+  PageInput input = ball_input();
+  EXPECT_THAT(page_of(input), Not(Holds("<h2 id=\"elements-h\">")));
+  ElementPlan plan;
+  plan.elements.push_back({});
+  plan.elements[0].name = "<ball>";
+  plan.elements[0].nominal.kind = elements::Kind::kSphere;
+  plan.elements[0].nominal.radius_m = 0.03;
+  plan.elements[0].within_m = 1e-3;
+  auto report = measure_elements(input.objects[0].mesh, plan, RunContext());
+  ASSERT_TRUE(report) << report.error().text();
+  input.elements = *report;
+  const std::string html = page_of(input);
+  EXPECT_THAT(html, Holds("<h2 id=\"elements-h\">"));
+  EXPECT_THAT(html, Holds("<th scope=\"row\">&lt;ball&gt;</th><td>diameter</td><td>60.0000</td>"));
+}
+
 TEST(Page, TakesArraysOfAReportThatFitTheMesh) {
   PageInput input = ball_input();
   const std::size_t n = input.objects[0].mesh.vertices.size();

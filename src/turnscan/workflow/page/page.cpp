@@ -125,6 +125,7 @@ Result<ReportPage> make_page(const PageInput& given, const RunContext& context) 
   out.html += pictures;
   out.html += page::dimensions_section(input);
   out.html += page::comparison_section(input);
+  out.html += page::elements_section(input);
   out.html += page::plots_section(input, facts);
   out.html += page::making_section(facts);
   out.html += foot(facts, script);

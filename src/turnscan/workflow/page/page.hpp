@@ -11,6 +11,7 @@
 #include <string>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
+#include <turnscan/evaluation/elements/elements.hpp>
 #include <turnscan/evaluation/evaluate.hpp>
 #include <turnscan/workflow/page/turn_points.hpp>
 #include <vector>
@@ -35,6 +36,7 @@ struct PageInput {
   /// `verdict` ({colour, sentences: [{topic, level, text, value, unit}]}) if present, and takes
   /// expected_error_m, seen_by and invented, one number per vertex, if the object above has none.
   std::string report;
+  std::optional<ElementReport> elements;  ///< measured on the object
   std::vector<TurnPoint> turn;  ///< for the plot of the speed over the turn; empty: no plot
   int picture_px = 420;         ///< width and height of the pictures
 };

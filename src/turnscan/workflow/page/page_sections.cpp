@@ -6,6 +6,7 @@
 #include <turnscan/geometry/mesh/mesh_check.hpp>
 #include <turnscan/io/image/image_io.hpp>
 #include <turnscan/simulator/rendering/picture.hpp>
+#include <turnscan/workflow/inspection/element_output.hpp>
 #include <turnscan/workflow/page/encoding.hpp>
 #include <turnscan/workflow/page/page_plots.hpp>
 
@@ -139,6 +140,14 @@ std::string comparison_html(const std::string& name, const Evaluation& e) {
   return fmt::format("<h3>{}</h3>\n", escaped(name)) + table.text();
 }
 
+/// The first row is the header.
+std::string table_html(const std::vector<std::vector<std::string>>& rows) {
+  HtmlTable table(rows.front());
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    table.add(rows[i].front(), {rows[i].begin() + 1, rows[i].end()});
+  return table.text();
+}
+
 }  // namespace
 
 std::string verdict_section(const PageInput& input, const ReportFacts& facts) {
@@ -213,6 +222,13 @@ std::string comparison_section(const PageInput& input) {
       html += comparison_html(name_of(input, i), *input.objects[i].evaluation);
   }
   return section("comparison", "Compared with the reference", html);
+}
+
+std::string elements_section(const PageInput& input) {
+  if (!input.elements) return "";
+  return section("elements", "Elements",
+                 table_html(workflow::element_rows(*input.elements)) +
+                     table_html(workflow::figure_rows(*input.elements)));
 }
 
 std::string plots_section(const PageInput& input, const ReportFacts& facts) {

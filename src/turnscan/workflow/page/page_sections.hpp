@@ -18,6 +18,8 @@ Result<std::string> pictures_section(const PageInput& input, const RunContext& c
 std::string dimensions_section(const PageInput& input);
 /// Empty without a comparison.
 std::string comparison_section(const PageInput& input);
+/// Empty without elements.
+std::string elements_section(const PageInput& input);
 std::string plots_section(const PageInput& input, const ReportFacts& facts);
 /// Statistics of the scan, parameters with their reasons, notes. Empty if the report has none.
 std::string making_section(const ReportFacts& facts);
