@@ -464,6 +464,34 @@ class OutOfProportion(harness.TestCase):
         self.cheap("a.obj")
 
 
+    def put_slivers(self, name, corners):
+        """One face, which becomes as many slivers at one vertex."""
+        (self.dir / name).write_text(
+            "".join(f"v {k % 640} {k // 640} 0\n" for k in range(corners)) + "f "
+            + " ".join(str(k + 1) for k in range(corners)) + "\n")
+
+    def test_a_face_of_corners_without_number(self):
+        # All slivers lie near each other; with all their pairs it would take half a minute.
+        self.put_slivers("m.obj", 400000)
+        self.cheap("m.obj", "--unit", "mm", seconds=8.0)
+
+    def test_objects_of_a_mesh_without_number(self):
+        self.put("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n", b"o a\nf 1 2 3\n" * 300000)
+        self.cheap("m.obj", says="out of all proportion")
+
+    def test_a_field_of_a_table_that_does_not_end(self):
+        recordings.copy(recordings.folder_of("three-frames"), self.dir / "r")
+        (self.dir / "r" / "frames.csv").write_bytes(b"index,time_s,file\n0,0,\"" + b"a" * 120000000 + b"\"\n")
+        self.cheap("r", says="more than 4096 bytes")
+
+    def test_cameras_of_a_scene_without_number(self):
+        (self.dir / "scene" / "depth").mkdir(parents=True)
+        cameras = {str(k): {"cam_K": [500, 0, 8, 0, 500, 6, 0, 0, 1], "depth_scale": 1} for k in range(250000)}
+        (self.dir / "scene" / "scene_camera.json").write_text(json.dumps(cameras, separators=(",", ":")))
+        (self.dir / "scene" / "scene_gt.json").write_text("{}")
+        self.cheap("scene", says="no pose", seconds=4.0)
+
+
 class HangUp(harness.TestCase):
     def test_ends_a_capture_in_order(self):
         process = start("capture", "--device", "virtual:letter-a?sensor=kinect-v2&realtime=1&frames=6000",
@@ -563,6 +591,13 @@ class Term(harness.TestCase):
         mesh = self.input_folder() / "m.ply"
         self.ok("reconstruct", shared_recording(), "-o", mesh, "--quiet")
         self.every_moment("evaluate", mesh, "--reference", mesh, "--error-map", "e.ply")
+
+    def test_evaluate_slivers(self):
+        # A nearest point looks at all of them, and there are hundreds of thousands of points.
+        OutOfProportion.put_slivers(self, "m.obj", 400000)
+        for delay in (1.5, 4.0, 8.0):
+            lag = self.lag(["evaluate", "m.obj", "--reference", "m.obj", "--unit", "mm"], delay)
+            self.assertLess(lag, self.MOST_S * os.cpu_count(), delay)
 
     def test_open_a_recording_of_many_frames(self):
         recording = self.input_folder() / "r"

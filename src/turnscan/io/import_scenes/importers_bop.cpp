@@ -26,16 +26,12 @@ constexpr std::uint32_t kMaxBopImage = 1000000;
 template <class Take>
 Result<> for_each_image(const fs::path& path, const RunContext& context, const Take& take) {
   TURNSCAN_ASSIGN(const std::string text, read_file(path, kMaxTextBytes));
-  const auto read = [&]() -> Result<> {
-    TURNSCAN_ASSIGN(const text::Json json, text::parse_json(text, context));
-    TURNSCAN_TRY(JsonObject::from(json, text));
-    for (const auto& [name, value] : json.items()) {
-      TURNSCAN_TRY(context.check());
-      TURNSCAN_ASSIGN(const std::uint32_t number, text::parse_index(name, kMaxBopImage));
-      TURNSCAN_TRY(take(number, value, text::JsonPlace{name, text}));
-    }
-    return {};
-  }();
+  const auto read = text::for_each_json_member(
+      text, context, [&](const std::string& name, const text::Json& value) -> Result<> {
+        TURNSCAN_TRY(context.check());
+        TURNSCAN_ASSIGN(const std::uint32_t number, text::parse_index(name, kMaxBopImage));
+        return take(number, value, text::JsonPlace{name, text});
+      });
   if (!read) return at_path(path, read.error());
   return {};
 }
@@ -54,7 +50,7 @@ Result<Pose> bop_pose(const JsonObject& object, const std::string& name) {
 }
 
 struct BopImage {
-  SensorInfo sensor;                   ///< without the image's size
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0, depth_unit_m = 0.0;
   std::optional<Pose> T_camera_place;  ///< of what places it: the world or the object
 };
 using BopImages = std::map<std::uint32_t, BopImage>;
@@ -68,16 +64,16 @@ Result<BopImages> read_bop_cameras(const fs::path& path, const ImportOptions& op
         TURNSCAN_ASSIGN(const JsonObject object, JsonObject::from(value, std::move(place)));
         TURNSCAN_ASSIGN(const std::vector<double> k, object.numbers("cam_K"));
         if (k.size() != 9) return fail(ErrorCode::kFormat, "cam_K has {} numbers, not 9", k.size());
-        BopImage& image = out[number];
-        CameraIntrinsics& camera = image.sensor.intrinsics;
-        camera.fx = k[0], camera.cx = k[2], camera.fy = k[4], camera.cy = k[5];
+        BopImage image;
+        image.fx = k[0], image.cx = k[2], image.fy = k[4], image.cy = k[5];
         TURNSCAN_ASSIGN(const double scale, object.number_or("depth_scale", 1.0));
-        TURNSCAN_ASSIGN(image.sensor.depth_unit_m, depth_scale(options, kBopUnit * scale));
-        if (!(image.sensor.depth_unit_m > 0.0 && image.sensor.depth_unit_m <= 1.0))
+        TURNSCAN_ASSIGN(image.depth_unit_m, depth_scale(options, kBopUnit * scale));
+        if (!(image.depth_unit_m > 0.0 && image.depth_unit_m <= 1.0))
           return fail(ErrorCode::kFormat, "depth_scale = {} is out of range", scale);
         if (object.has("cam_R_w2c")) {
           TURNSCAN_ASSIGN(image.T_camera_place, bop_pose(object, "w2c"));
         }
+        out[number] = image;
         return {};
       }));
   if (out.empty()) return fail_at(path.string(), ErrorCode::kTooFewPoints, "it lists no images");
@@ -150,7 +146,16 @@ Result<> take_masks(const fs::path& folder, std::vector<ForeignFrame>& frames,
   return {};
 }
 
-Result<std::vector<ForeignFrame>> list_bop_frames(const fs::path& folder, BopImages& images,
+SensorInfo sensor_of(const BopImage& image, int width, int height) {
+  SensorInfo sensor;
+  sensor.depth_unit_m = image.depth_unit_m;
+  CameraIntrinsics& camera = sensor.intrinsics;
+  camera.width = width, camera.height = height;
+  camera.fx = image.fx, camera.fy = image.fy, camera.cx = image.cx, camera.cy = image.cy;
+  return sensor;
+}
+
+Result<std::vector<ForeignFrame>> list_bop_frames(const fs::path& folder, const BopImages& images,
                                                   const ImportOptions& options,
                                                   SequenceHeader& header,
                                                   const RunContext& context) {
@@ -158,7 +163,7 @@ Result<std::vector<ForeignFrame>> list_bop_frames(const fs::path& folder, BopIma
   std::vector<std::optional<Pose>> poses;
   SceneSensors sensors;
   std::optional<std::pair<int, int>> size;
-  for (auto& [number, image] : images) {
+  for (const auto& [number, image] : images) {
     TURNSCAN_TRY(context.check());
     ForeignFrame& frame = frames.emplace_back();
     frame.info.index = number;
@@ -169,8 +174,8 @@ Result<std::vector<ForeignFrame>> list_bop_frames(const fs::path& folder, BopIma
       TURNSCAN_ASSIGN(const DepthImage depth, read_depth_png(frame.data));
       size = {depth.width, depth.height};
     }
-    std::tie(image.sensor.intrinsics.width, image.sensor.intrinsics.height) = *size;
-    TURNSCAN_ASSIGN(frame.info.sensor, sensors.number_of(image.sensor));
+    TURNSCAN_ASSIGN(frame.info.sensor,
+                    sensors.number_of(sensor_of(image, size->first, size->second)));
     TURNSCAN_ASSIGN(poses.emplace_back(), placed_pose(image.T_camera_place->inverse(), options));
   }
   TURNSCAN_TRY(place_frames(poses, frames));

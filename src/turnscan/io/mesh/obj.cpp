@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <turnscan/io/file/read_budget.hpp>
 #include <turnscan/io/mesh/mesh_formats.hpp>
 #include <turnscan/io/text/number_text.hpp>
 #include <unordered_map>
@@ -10,6 +11,8 @@ namespace turnscan::mesh_io {
 namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffU;
+/// Bytes that an object takes beside its triangles, with what is said of it.
+constexpr std::uint64_t kObjectHeld = 1024;
 
 /// Content of the file; objects are ranges of triangles.
 struct ObjContent {
@@ -32,7 +35,9 @@ struct ObjContent {
 
 class ObjReader {
  public:
-  explicit ObjReader(std::string_view bytes) : cursor_(bytes) { content_.objects.emplace_back(); }
+  explicit ObjReader(std::string_view bytes) : cursor_(bytes), budget_(bytes.size()) {
+    content_.objects.emplace_back();
+  }
 
   Result<ObjContent> read() {
     for (cursor_.skip_space(); !cursor_.at_end(); cursor_.skip_space()) {
@@ -40,6 +45,7 @@ class ObjReader {
         return fail(ErrorCode::kFormat, "damaged at line {}: {}", cursor_.line_number(), why);
       cursor_.skip_line();
     }
+    TURNSCAN_TRY(budget_.state());
     return std::move(content_);
   }
 
@@ -56,8 +62,10 @@ class ObjReader {
   }
 
   const char* object() {
-    if (content_.objects.back().first_triangle != content_.triangles.size())
+    if (content_.objects.back().first_triangle != content_.triangles.size()) {
+      if (!budget_.hold(kObjectHeld)) return nullptr;  // read() tells
       content_.objects.emplace_back();
+    }
     content_.objects.back() = {std::string(cursor_.rest_of_line()), content_.triangles.size()};
     return nullptr;
   }
@@ -156,6 +164,7 @@ class ObjReader {
   }
 
   text::TextCursor cursor_;
+  file::ReadBudget budget_;
   ObjContent content_;
   std::vector<std::uint32_t> polygon_, polygon_uvs_;
   std::unordered_map<std::string, std::uint32_t> number_of_{{"", 0}};  ///< of each material

@@ -100,7 +100,8 @@ class TextReader {
   const char* begin_solid() {
     if (open_) return "a solid within a solid";
     open_ = true;
-    meshes_.emplace_back().name = std::string(cursor_.rest_of_line());
+    if (meshes_.empty() || !meshes_.back().empty()) meshes_.emplace_back();
+    meshes_.back().name = std::string(cursor_.rest_of_line());
     merger_ = VertexMerger(0);
     return nullptr;
   }

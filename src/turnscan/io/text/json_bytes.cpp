@@ -15,13 +15,20 @@ std::size_t end_of_string(std::string_view text, std::size_t open) {
 }
 
 /// Bytes that the parser's value (nlohmann, 16 bytes) takes in memory for this mark, with what the
-/// allocator adds: a list is a vector on the heap, a member a node of a map with its name.
+/// allocator adds: a list is a vector on the heap, a member a node of a map beside its name.
 std::uint64_t held_for(char mark) {
-  constexpr std::uint64_t kElement = 16, kList = 48, kObject = 64, kMember = 96;
+  constexpr std::uint64_t kElement = 16, kList = 48, kObject = 64, kMember = 48;
   if (mark == ',') return kElement;
   if (mark == '[') return kList;
   if (mark == '{') return kObject;
   return mark == ':' ? kMember : 0;
+}
+
+/// The same for a text or a name: an object on the heap, and another one if it is long.
+std::uint64_t held_for_text(std::size_t length) {
+  constexpr std::uint64_t kText = 48, kOverhead = 24;
+  constexpr std::size_t kInPlace = 15;
+  return kText + (length > kInPlace ? length + kOverhead : 0);
 }
 
 bool is_white(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
@@ -153,7 +160,11 @@ Result<> check_json_shape(std::string_view text, const file::ReadBudget& budget)
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     held += held_for(c);
-    if (c == '"') i = end_of_string(text, i);
+    if (c == '"') {
+      const std::size_t end = end_of_string(text, i);
+      held += held_for_text(end - i - 1);
+      i = end;
+    }
     if (c == ']' || c == '}') --depth;
     if ((c == '[' || c == '{') && ++depth > kMaxJsonDepth)
       return fail(ErrorCode::kFormat, "line {}: lists and objects are nested more than {} deep",

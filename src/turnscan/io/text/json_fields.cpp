@@ -106,16 +106,28 @@ std::string syntax_error_of(std::string_view text, const Json::parse_error& erro
 }
 
 /// The value, or why the text is not JSON; either may be wrong when cancelled.
-Result<Json> parsed(std::string_view text, const file::ReadBudget& budget) {
+Result<Json> parsed(std::string_view text, const file::ReadBudget& budget,
+                    const Json::parser_callback_t& keep = nullptr) {
   const char *begin = text.data(), *end = begin + text.size();
   std::string why = "a number is too large";
   try {
-    return Json::parse(TextBytes(begin, end, budget), TextBytes(end, end, budget));
+    return Json::parse(TextBytes(begin, end, budget), TextBytes(end, end, budget), keep);
   } catch (const Json::parse_error& error) {
     why = syntax_error_of(text, error);
   } catch (const Json::exception&) {
   }
   return fail(ErrorCode::kFormat, "not valid JSON: {}", why);
+}
+
+Result<Json> checked(std::string_view text, const file::ReadBudget& budget,
+                     const Json::parser_callback_t& keep) {
+  TURNSCAN_TRY(check_json_shape(text, budget));
+  // The parser treats a zero byte as the end, and does not read what follows.
+  if (text.find('\0') != std::string_view::npos)
+    return fail(ErrorCode::kFormat, "not valid JSON: it holds a zero byte");
+  auto value = parsed(text, budget, keep);
+  TURNSCAN_TRY(budget.state());
+  return value;
 }
 
 bool holds_objects(const OrderedJson& value) {
@@ -153,13 +165,29 @@ Result<Json> parse_json(std::string_view text, const RunContext& context) {
 }
 
 Result<Json> parse_json(std::string_view text, const file::ReadBudget& budget) {
-  TURNSCAN_TRY(check_json_shape(text, budget));
-  // The parser treats a zero byte as the end, and does not read what follows.
-  if (text.find('\0') != std::string_view::npos)
-    return fail(ErrorCode::kFormat, "not valid JSON: it holds a zero byte");
-  auto value = parsed(text, budget);
-  TURNSCAN_TRY(budget.state());
-  return value;
+  return checked(text, budget, nullptr);
+}
+
+Result<> for_each_json_member(
+    std::string_view text, const RunContext& context,
+    const std::function<Result<>(const std::string&, const Json&)>& take) {
+  constexpr int kOfMembers = 1;  // depth
+  std::string name;
+  Result<> taken;
+  const auto keep = [&](int depth, Json::parse_event_t event, Json& value) {
+    using Event = Json::parse_event_t;
+    if (depth != kOfMembers || event == Event::object_start || event == Event::array_start)
+      return true;
+    if (event == Event::key) {
+      name = value.get<std::string>();
+      return true;
+    }
+    if (taken) taken = take(name, value);
+    return false;
+  };
+  TURNSCAN_ASSIGN(const Json rest, checked(text, file::ReadBudget(text.size(), context), keep));
+  TURNSCAN_TRY(JsonObject::from(rest, text));
+  return taken;
 }
 
 JsonPlace JsonPlace::member(const char* key) const {

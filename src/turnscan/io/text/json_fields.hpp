@@ -2,6 +2,7 @@
 // Reads and writes JSON without exceptions: every wrong field becomes an error message that names
 // it. Sources that access a Json's contents include <nlohmann/json.hpp>.
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -76,6 +77,12 @@ class JsonObject {
 Result<Json> parse_json(std::string_view text, const file::ReadBudget& budget);
 /// The same for a text that is the whole file.
 Result<Json> parse_json(std::string_view text, const RunContext& context = RunContext());
+
+/// Reads an object of many members, of which one is in memory at a time: take(name, value) is
+/// called for each, in the file's order, until it fails. Fails as parse_json(), take() and, if the
+/// text is no object, with kFormat.
+Result<> for_each_json_member(std::string_view text, const RunContext& context,
+                              const std::function<Result<>(const std::string&, const Json&)>& take);
 
 /// width, height, fx, fy, cx, cy and optionally distortion (k1 k2 p1 p2 k3, and k4 k5 k6); checked.
 Result<CameraIntrinsics> intrinsics_from_json(const JsonObject& object);

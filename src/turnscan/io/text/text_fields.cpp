@@ -8,7 +8,12 @@ namespace turnscan::text {
 namespace {
 
 constexpr std::size_t kMaxFields = 1000;  // per line, which limits the memory for a line of commas
+constexpr std::size_t kMaxFieldBytes = 4096;  // the longest that a field holds is a path
 constexpr std::string_view kBlanks = " \t\r\n\f\v";
+
+tl::unexpected<Error> too_long() {
+  return fail(ErrorCode::kFormat, "a field has more than {} bytes", kMaxFieldBytes);
+}
 
 /// Removes one field from the front of rest, up to the delimiter after it.
 Result<std::string> take_field(std::string_view& rest, char delimiter) {
@@ -19,6 +24,7 @@ Result<std::string> take_field(std::string_view& rest, char delimiter) {
     std::size_t i = begin + 1;
     for (;; ++i) {
       if (i >= rest.size()) return fail(ErrorCode::kFormat, "a quote is not closed");
+      if (field.size() > kMaxFieldBytes) return too_long();
       if (rest[i] != '"') {
         field += rest[i];
       } else if (i + 1 < rest.size() && rest[i + 1] == '"') {
@@ -34,7 +40,9 @@ Result<std::string> take_field(std::string_view& rest, char delimiter) {
     return field;
   }
   const std::size_t comma = std::min(rest.find(delimiter), rest.size());
-  field = trimmed(rest.substr(0, comma));
+  const std::string_view text = trimmed(rest.substr(0, comma));
+  if (text.size() > kMaxFieldBytes) return too_long();
+  field = text;
   rest.remove_prefix(comma);
   return field;
 }
