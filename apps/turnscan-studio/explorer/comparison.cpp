@@ -29,11 +29,12 @@ Result<std::vector<Vec3f>> probe(const ModelData& data, const RunContext& contex
   return out;
 }
 
-std::vector<float> distances_of(const std::vector<Vec3f>& points, const MeshDistance& reference) {
+Result<std::vector<float>> distances_of(const std::vector<Vec3f>& points,
+                                        const MeshDistance& reference, const RunContext& context) {
   std::vector<float> out(points.size());
-  parallel_for(points.size(), 1024, [&](std::size_t i) {
+  TURNSCAN_TRY(parallel_for(points.size(), 1024, context, [&](std::size_t i) {
     out[i] = static_cast<float>(reference.closest(points[i].cast<double>()).distance);
-  });
+  }));
   return out;
 }
 
@@ -48,8 +49,7 @@ Result<ModelDataPtr> colored_by_distance(const ModelData& compared, const ModelD
     return mesh_model(std::move(colored), source, report);
   }
   PointCloud cloud = compared.cloud;
-  const std::vector<float> away = distances_of(cloud.points, distance);
-  TURNSCAN_TRY(context.check());
+  TURNSCAN_ASSIGN(const std::vector<float> away, distances_of(cloud.points, distance, context));
   cloud.colors.clear();
   for (const float d : away) cloud.colors.push_back(viridis(d / scale_m));
   return cloud_model(std::move(cloud), source, report);
@@ -73,10 +73,9 @@ Result<Comparison> compare(const ModelData& compared, const ModelData& reference
   const QString report =
       out.figures ? QString::fromStdString(evaluation_text(*out.figures)) : QString();
   context.begin_phase("distances", 0);
-  const MeshDistance distance(reference.mesh);
+  TURNSCAN_ASSIGN(const MeshDistance distance, MeshDistance::create(reference.mesh, context));
   TURNSCAN_ASSIGN(const auto points, probe(compared, context));
-  TURNSCAN_TRY(context.check());
-  const std::vector<float> away = distances_of(points, distance);
+  TURNSCAN_ASSIGN(const std::vector<float> away, distances_of(points, distance, context));
   out.histogram.assign(kBins, 0.0);
   for (const float d : away) {
     const double at = std::min(double(d) / out.scale_m, 1.0) * double(kBins);

@@ -66,7 +66,7 @@ class ServeCommand : public Command {
                   "--until-stopped: nobody is at the terminal to stop a scan; use --turns, "
                   "--seconds or --frames");
     TURNSCAN_ASSIGN(serve::Access access, find_access());
-    TURNSCAN_ASSIGN(serve::ScanStore store, serve::ScanStore::open(folder_));
+    TURNSCAN_ASSIGN(serve::ScanStore store, serve::ScanStore::open(folder_, session.context()));
     request_.wait = !no_wait_;
     const std::string folder = store.root().string();
     serve::Rig rig(std::move(store), request_, access);

@@ -86,7 +86,7 @@ std::string media_type(const std::string& name) {
   return found == kTypes.end() ? "" : found->second;
 }
 
-Result<ScanStore> ScanStore::open(const fs::path& folder) {
+Result<ScanStore> ScanStore::open(const fs::path& folder, const RunContext& context) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
@@ -94,7 +94,7 @@ Result<ScanStore> ScanStore::open(const fs::path& folder) {
                    error.message());
   TURNSCAN_ASSIGN(file::Folder root, file::Folder::open(fs::absolute(folder)));
   TURNSCAN_TRY(root.check_own());
-  return ScanStore(std::move(root));
+  return ScanStore(std::move(root), context);
 }
 
 Result<std::string> ScanStore::create() const {
@@ -137,8 +137,9 @@ Json ScanStore::list() const {
     // With a report it was complete; opening each recording would take long.
     out.push_back(
         {{"id", id},
-         {"state",
-          own->has(kReport) ? "done" : state_of(*own, Recording::open(own->path() / kRecording))}});
+         {"state", own->has(kReport)
+                       ? "done"
+                       : state_of(*own, Recording::open(own->path() / kRecording, context_))}});
   }
   return out;
 }
@@ -147,7 +148,7 @@ Result<Json> ScanStore::describe(const std::string& id) const {
   TURNSCAN_ASSIGN(const file::Folder own, scan(id));
   if (!own.has(kRecording)) return fail(ErrorCode::kNotFound, "nothing was recorded yet");
   const fs::path path = own.path() / kRecording;
-  const auto recording = Recording::open(path);
+  const auto recording = Recording::open(path, context_);
   Json out{{"id", id}, {"state", state_of(own, recording)}};
   if (recording) {
     const CaptureSettings& settings = recording->capture_settings();

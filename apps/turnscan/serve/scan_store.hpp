@@ -39,8 +39,9 @@ std::string media_type(const std::string& name);
 /// before. All fail with kNotFound for an id without a scan.
 class ScanStore {
  public:
-  /// Creates the folder if there is none. Fails with kIo and kNoPermission.
-  static Result<ScanStore> open(const std::filesystem::path& folder);
+  /// Creates the folder if there is none. Fails with kIo and kNoPermission. Once the context is
+  /// cancelled, what is read below stops.
+  static Result<ScanStore> open(const std::filesystem::path& folder, const RunContext& context);
 
   /// A new folder, named after the time (UTC). Fails with kIo.
   Result<std::string> create() const;
@@ -63,11 +64,12 @@ class ScanStore {
   const std::filesystem::path& root() const { return root_->path(); }
 
  private:
-  explicit ScanStore(file::Folder root)
-      : root_(std::make_shared<const file::Folder>(std::move(root))) {}
+  ScanStore(file::Folder root, const RunContext& context)
+      : root_(std::make_shared<const file::Folder>(std::move(root))), context_(context) {}
   Result<file::Folder> scan(const std::string& id) const;
 
   std::shared_ptr<const file::Folder> root_;
+  RunContext context_;
 };
 
 }  // namespace turnscan::serve

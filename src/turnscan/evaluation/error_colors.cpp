@@ -21,12 +21,11 @@ Result<TriangleMesh> color_by_error(const TriangleMesh& mesh, const TriangleMesh
   TURNSCAN_ASSIGN(const MeshDistance distance, MeshDistance::create(reference, context));
   TriangleMesh colored = mesh;
   colored.colors.assign(mesh.vertices.size(), Rgb());
-  parallel_for(mesh.vertices.size(), 1024, [&](std::size_t v) {
-    if (context.cancelled() || !mesh.vertices[v].allFinite()) return;
+  TURNSCAN_TRY(parallel_for(mesh.vertices.size(), 1024, context, [&](std::size_t v) {
+    if (!mesh.vertices[v].allFinite()) return;
     const auto hit = distance.closest(mesh.vertices[v].cast<double>());
     colored.colors[v] = viridis(hit.distance / max_error_m);
-  });
-  TURNSCAN_TRY(context.check());
+  }));
   return colored;
 }
 

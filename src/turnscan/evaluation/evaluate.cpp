@@ -94,7 +94,8 @@ Result<Nearest> nearest_on(const TriangleMesh& surface, const std::vector<Vec3f>
   context.begin_phase(phase, n);
   TURNSCAN_TRY(parallel_for((n + kChunk - 1) / kChunk, 1, context, [&](std::size_t chunk) {
     const std::size_t end = std::min(n, (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i) {
+    // Where thousands of slivers meet, one sample may take milliseconds.
+    for (std::size_t i = chunk * kChunk; i < end && !context.cancelled(); ++i) {
       const auto hit = distance.closest(samples[i].cast<double>());
       nearest.distance[i] = hit.distance;
       nearest.points[i] = hit.point;

@@ -43,6 +43,9 @@ TEST(Deviations, EndWhenTheyAreCancelled) {
   const auto found = deviations_from(cube(), std::vector<Vec3f>(5000, {2, 2, 2}), context);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
+  const auto prepared = SignedDistance::to(cube(), context);
+  ASSERT_FALSE(prepared);
+  EXPECT_EQ(prepared.error().code, ErrorCode::kCancelled);
 }
 
 TEST(Deviations, GetColoursThatTellInAboveAndBelowApart) {
@@ -69,14 +72,14 @@ TEST(Deviations, AreATableInMillimetres) {
 
 TEST(Deviations, AreTheSameAskedOneByOne) {
   const TriangleMesh ring = torus(0.05, 0.02, 40, 24);
-  const auto one_by_one = SignedDistance::to(ring);
+  const auto one_by_one = SignedDistance::to(ring, RunContext());
   ASSERT_TRUE(one_by_one);
   const auto points = sphere(0.05, 3).vertices;
   const auto at_once = deviations_from(ring, points, RunContext());
   ASSERT_TRUE(at_once);
   for (std::size_t i = 0; i < points.size(); ++i)
     EXPECT_EQ((*at_once)[i], float(one_by_one->at(points[i].cast<double>())));
-  EXPECT_FALSE(SignedDistance::to({}));
+  EXPECT_FALSE(SignedDistance::to({}, RunContext()));
 }
 
 TEST(DeviationFigures, OfABallInABallAreTheDifferenceOfRadii) {

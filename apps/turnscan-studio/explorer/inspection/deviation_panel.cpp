@@ -257,7 +257,7 @@ void DeviationPanel::run() {
        wanted = 1e-3 * range_->value()](const RunContext& context) -> Result<Finish> {
         Shown made{a.data, b.id, a.name, b.name, nullptr, {}, {}, 0.0, nullptr};
         context.begin_phase("prepare the reference", 0);
-        TURNSCAN_ASSIGN(SignedDistance distance, SignedDistance::to(b.data->mesh));
+        TURNSCAN_ASSIGN(SignedDistance distance, SignedDistance::to(b.data->mesh, context));
         TURNSCAN_ASSIGN(made.values, deviations_from(distance, points_of(*a.data), context));
         made.distance = std::make_shared<const SignedDistance>(std::move(distance));
         if (a.data->kind == ModelKind::kMesh) made.weights = surface_shares(a.data->mesh);

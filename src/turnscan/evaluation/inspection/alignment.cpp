@@ -14,12 +14,13 @@ namespace {
 
 constexpr double kReach = 0.05;  // relative to the size of the reference
 
-double rms_to(const MeshDistance& reference, std::span<const Vec3f> points, const Pose& pose) {
+Result<double> rms_to(const MeshDistance& reference, std::span<const Vec3f> points,
+                      const Pose& pose, const RunContext& context) {
   std::vector<double> squares(points.size());
-  parallel_for(points.size(), 1024, [&](std::size_t i) {
+  TURNSCAN_TRY(parallel_for(points.size(), 1024, context, [&](std::size_t i) {
     const double away = reference.closest(pose * points[i].cast<double>()).distance;
     squares[i] = away * away;
-  });
+  }));
   double sum = 0.0;
   for (const double square : squares) sum += square;
   return std::sqrt(sum / double(std::max<std::size_t>(1, points.size())));
@@ -38,8 +39,8 @@ Result<Alignment> align_to(std::span<const Vec3f> points, const TriangleMesh& re
   TURNSCAN_ASSIGN(out.icp, icp(points, reference, Pose::Identity(), options, context));
   const Pose& pose = out.icp.T_target_source;
   TURNSCAN_ASSIGN(const MeshDistance distance, MeshDistance::create(reference, context));
-  out.rms_before_m = rms_to(distance, points, Pose::Identity());
-  out.rms_after_m = rms_to(distance, points, pose);
+  TURNSCAN_ASSIGN(out.rms_before_m, rms_to(distance, points, Pose::Identity(), context));
+  TURNSCAN_ASSIGN(out.rms_after_m, rms_to(distance, points, pose, context));
   if (out.rms_after_m > out.rms_before_m) {
     return fail(ErrorCode::kLibrary,
                 "align: the model would lie farther from the reference than now (rms {:.3f} mm, "

@@ -39,7 +39,6 @@ void must_fit(std::span<const float> deviations, std::span<const float> weights)
 }  // namespace
 
 struct SignedDistance::Impl {
-  explicit Impl(const TriangleMesh& reference) : distance(reference), normals(reference) {}
   MeshDistance distance;
   PseudoNormals normals;
 };
@@ -49,12 +48,15 @@ SignedDistance::SignedDistance(SignedDistance&&) noexcept = default;
 SignedDistance& SignedDistance::operator=(SignedDistance&&) noexcept = default;
 SignedDistance::~SignedDistance() = default;
 
-Result<SignedDistance> SignedDistance::to(const TriangleMesh& reference) {
+Result<SignedDistance> SignedDistance::to(const TriangleMesh& reference,
+                                          const RunContext& context) {
   TURNSCAN_TRY(validate_mesh(reference, "reference"));
   if (reference.empty()) {
     return fail(ErrorCode::kTooFewPoints, "deviations: the reference has no triangles; check it");
   }
-  return SignedDistance(std::make_unique<Impl>(reference));
+  TURNSCAN_ASSIGN(MeshDistance distance, MeshDistance::create(reference, context));
+  TURNSCAN_ASSIGN(PseudoNormals normals, PseudoNormals::create(reference, context));
+  return SignedDistance(std::make_unique<Impl>(Impl{std::move(distance), std::move(normals)}));
 }
 
 double SignedDistance::at(const Vec3d& point) const {
@@ -67,7 +69,7 @@ double SignedDistance::at(const Vec3d& point) const {
 Result<std::vector<float>> deviations_from(const TriangleMesh& reference,
                                            std::span<const Vec3f> points,
                                            const RunContext& context) {
-  TURNSCAN_ASSIGN(const SignedDistance distance, SignedDistance::to(reference));
+  TURNSCAN_ASSIGN(const SignedDistance distance, SignedDistance::to(reference, context));
   return deviations_from(distance, points, context);
 }
 

@@ -15,8 +15,9 @@ namespace turnscan {
 /// Repeated distance queries to one reference, from many threads.
 class SignedDistance {
  public:
-  /// Copies what it needs. Fails with kFormat as validate_mesh(), kTooFewPoints (no triangle).
-  static Result<SignedDistance> to(const TriangleMesh& reference);
+  /// Copies what it needs. Fails with kFormat as validate_mesh(), kTooFewPoints (no triangle),
+  /// kCancelled.
+  static Result<SignedDistance> to(const TriangleMesh& reference, const RunContext& context);
   SignedDistance(SignedDistance&&) noexcept;
   SignedDistance& operator=(SignedDistance&&) noexcept;
   ~SignedDistance();

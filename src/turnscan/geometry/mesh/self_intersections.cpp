@@ -11,8 +11,16 @@ namespace turnscan {
 
 namespace {
 
-/// Triangles near another that are asked: a mesh that is not made to hurt has some 30.
-constexpr std::size_t kMostNear = 1000;
+/// Triangles near another that are asked: a mesh that is not made to hurt has some 30. The slivers
+/// of a face of a million corners are all near each other; their pairs are limited to what takes
+/// about a second, or three times what those of a sound mesh of so many triangles take.
+constexpr std::size_t kMostNear = 1000, kLeastNear = 100;
+constexpr std::size_t kMostPairs = std::size_t(1) << 25;
+
+std::size_t most_near(std::size_t triangles) {
+  return std::clamp(kMostPairs / std::max<std::size_t>(1, triangles), kLeastNear, kMostNear);
+}
+
 constexpr std::size_t kChunk = 1024;  // triangles between two looks at the context
 constexpr std::uint8_t kPierced = 8;  ///< of the flags; the bits below are of the triangle's edges
 
@@ -29,7 +37,11 @@ class SelfIntersectionSearch {
  public:
   SelfIntersectionSearch(const TriangleMesh& mesh, std::span<const std::uint8_t> moved,
                          MeshDistance tree, const RunContext& context)
-      : mesh_(mesh), moved_(moved), context_(context), tree_(std::move(tree)) {}
+      : mesh_(mesh),
+        moved_(moved),
+        context_(context),
+        tree_(std::move(tree)),
+        most_near_(most_near(mesh.triangles.size())) {}
 
   SelfIntersections run() {
     SelfIntersections out;
@@ -64,7 +76,7 @@ class SelfIntersectionSearch {
       const Vec3f &p = mesh_.vertices[own[0]], &q = mesh_.vertices[own[1]],
                   &r = mesh_.vertices[own[2]];
       near.clear();
-      tree_.append_near(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r), kMostNear, near);
+      tree_.append_near(p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r), most_near_, near);
       for (const std::uint32_t other : near) {
         if (other == t || (other < t && moved(other)) || !straddles(mesh_.triangles[other], own))
           continue;
@@ -114,6 +126,7 @@ class SelfIntersectionSearch {
   std::span<const std::uint8_t> moved_;
   const RunContext& context_;
   MeshDistance tree_;
+  std::size_t most_near_;
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ class PointToPlaneIcp {
   Result<IcpResult> run(const RunContext& context) {
     for (int i = 1; i <= options_.max_iterations; ++i) {
       TURNSCAN_TRY(context.check());
-      TURNSCAN_TRY(find_pairs());
+      TURNSCAN_TRY(find_pairs(context));
       const Step step = solve();
       T_ = step.T * T_;
       TURNSCAN_TRY(check_motion());
@@ -59,11 +59,11 @@ class PointToPlaneIcp {
   }
 
  private:
-  Result<> find_pairs() {
+  Result<> find_pairs(const RunContext& context) {
     std::vector<IcpTarget> found(source_.size());
-    parallel_for(source_.size(), 512, [&](std::size_t i) {
+    TURNSCAN_TRY(parallel_for(source_.size(), 512, context, [&](std::size_t i) {
       found[i] = target_(T_ * source_[i], options_.max_distance_m);
-    });
+    }));
     pairs_.clear();
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (!found[i].found) continue;

@@ -116,14 +116,14 @@ Result<ReportPage> make_page(const PageInput& given, const RunContext& context) 
   context.begin_phase("page", kPictures);
   const std::string script = viewer_script();
   TURNSCAN_ASSIGN(const std::string pictures, page::pictures_section(input, context));
-  TURNSCAN_TRY(context.check());
+  TURNSCAN_ASSIGN(const std::string dimensions, page::dimensions_section(input, context));
   ReportPage out;
   out.has_viewer = !script.empty();
   out.html = head(input, script);
   out.html += page::verdict_section(input, facts);
   out.html += out.has_viewer ? page::view_section() : kNoViewer;
   out.html += pictures;
-  out.html += page::dimensions_section(input);
+  out.html += dimensions;
   out.html += page::comparison_section(input);
   out.html += page::elements_section(input);
   out.html += page::plots_section(input, facts);

@@ -186,7 +186,7 @@ Result<std::string> pictures_section(const PageInput& input, const RunContext& c
     options.ambient_samples = kPictureSamples;
     TURNSCAN_TRY(context.check());
     // With a separate context: its phases are not phases of the page.
-    TURNSCAN_ASSIGN(const ColorImage picture, render_picture(meshes, options, RunContext()));
+    TURNSCAN_ASSIGN(const ColorImage picture, render_picture(meshes, options, context.quiet()));
     TURNSCAN_ASSIGN(const std::string jpeg, encode_color_jpeg(picture, kPictureQuality));
     html += fmt::format(
         "<figure><img src=\"data:image/jpeg;base64,{}\" width=\"{}\" height=\"{}\" alt=\"The model "
@@ -197,12 +197,13 @@ Result<std::string> pictures_section(const PageInput& input, const RunContext& c
   return section("pictures", "From six sides", html + "</div>\n");
 }
 
-std::string dimensions_section(const PageInput& input) {
+Result<std::string> dimensions_section(const PageInput& input, const RunContext& context) {
   HtmlTable table({"Object", "Width x height x depth", "Area", "Volume", "Triangles", "Mesh"},
                   HtmlTable::Layout::kStacked);
   for (std::size_t i = 0; i < input.objects.size(); ++i) {
     const TriangleMesh& mesh = input.objects[i].mesh;
-    const MeshReport check = check_surface(mesh);
+    const MeshReport check = check_surface(mesh, context);
+    TURNSCAN_TRY(context.check());
     const Vec3d size = bounds(mesh.vertices).size() * 1e3;
     table.add(
         name_of(input, i),

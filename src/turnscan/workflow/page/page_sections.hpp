@@ -15,7 +15,7 @@ std::string verdict_section(const PageInput& input, const ReportFacts& facts);
 std::string view_section();
 /// Pictures of all objects from six sides, as JPEG. Fails as render_picture().
 Result<std::string> pictures_section(const PageInput& input, const RunContext& context);
-std::string dimensions_section(const PageInput& input);
+Result<std::string> dimensions_section(const PageInput& input, const RunContext& context);
 /// Empty without a comparison.
 std::string comparison_section(const PageInput& input);
 /// Empty without elements.
