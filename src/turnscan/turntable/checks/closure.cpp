@@ -47,25 +47,60 @@ std::size_t frame_beside(const FrameSequence& sequence, const std::vector<double
   return first;
 }
 
+/// Frames in the order of their angles, without those that have none.
+std::vector<std::size_t> by_angle(const std::vector<double>& angle) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < angle.size(); ++i)
+    if (std::isfinite(angle[i])) out.push_back(i);
+  std::sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) {
+    return angle[a] < angle[b] || (angle[a] == angle[b] && a < b);
+  });
+  return out;
+}
+
+/// The later frame of the same pass that comes nearest to a turn from frame i, and the first of
+/// equally near ones; i if none is nearer than `reach`.
+std::size_t partner_of(std::size_t i, const FrameSequence& sequence,
+                       const std::vector<double>& angle, const std::vector<std::size_t>& sorted,
+                       double reach) {
+  constexpr double kRounding = 1e-9;
+  std::size_t best = i;
+  double least = reach;
+  for (const double turn : {-kTurn, kTurn}) {
+    const double from = angle[i] + turn - reach - kRounding,
+                 to = angle[i] + turn + reach + kRounding;
+    auto at = std::lower_bound(sorted.begin(), sorted.end(), from,
+                               [&](std::size_t k, double value) { return angle[k] < value; });
+    for (; at != sorted.end() && angle[*at] <= to; ++at) {
+      const std::size_t k = *at;
+      const double off = std::abs(std::abs(angle[k] - angle[i]) - kTurn);
+      if (k <= i || sequence.frames()[k].pass != sequence.frames()[i].pass) continue;
+      if (off < least || (off == least && best != i && k < best)) best = k, least = off;
+    }
+  }
+  return best;
+}
+
 /// Frames one turn apart, spread over those that have a partner.
-std::vector<TurnPair> turn_pairs(const FrameSequence& sequence, const std::vector<double>& angle) {
+Result<std::vector<TurnPair>> turn_pairs(const FrameSequence& sequence,
+                                         const std::vector<double>& angle,
+                                         const RunContext& context) {
   std::vector<TurnPair> all;
-  const auto& frames = sequence.frames();
   std::vector<double> steps;
   for (std::size_t i = 1; i < angle.size(); ++i) {
     if (std::isfinite(angle[i] - angle[i - 1])) steps.push_back(std::abs(angle[i] - angle[i - 1]));
   }
   const double reach = std::max(1.5 / kDegreesPerRadian, steps.empty() ? 0.0 : 0.6 * median(steps));
+  const std::vector<std::size_t> sorted = by_angle(angle);
   for (std::size_t i = 0; i < angle.size(); ++i) {
-    std::size_t best = i;
-    double least = reach;
-    for (std::size_t k = i + 1; k < angle.size(); ++k) {
-      const double off = std::abs(std::abs(angle[k] - angle[i]) - kTurn);
-      if (frames[k].pass == frames[i].pass && off < least) best = k, least = off;
-    }
-    if (best != i) all.push_back({i, best, frame_beside(sequence, angle, i)});
+    TURNSCAN_TRY(context.check());
+    if (!std::isfinite(angle[i])) continue;
+    const std::size_t partner = partner_of(i, sequence, angle, sorted, reach);
+    if (partner != i) all.push_back({i, partner});
   }
-  return evenly_spread_to_last(std::move(all), kMaxPairs);
+  auto chosen = evenly_spread_to_last(std::move(all), kMaxPairs);
+  for (TurnPair& pair : chosen) pair.beside = frame_beside(sequence, angle, pair.first);
+  return chosen;
 }
 
 struct PairClosure {
@@ -235,7 +270,7 @@ Result<std::optional<ClosureError>> measure_closure(const FrameSequence& sequenc
   const auto angle = checks::recorded_angles(sequence);
   if (std::none_of(angle.begin(), angle.end(), [](double a) { return std::isfinite(a); }))
     return fail(ErrorCode::kMissingData, "the recording has neither angles nor a speed");
-  const auto pairs = checks::turn_pairs(sequence, angle);
+  TURNSCAN_ASSIGN(const auto pairs, checks::turn_pairs(sequence, angle, context));
   if (pairs.empty()) return std::nullopt;
   const auto positions = checks::positions_of(pairs);
   if (positions.size() < 3) return std::nullopt;
