@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <limits>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
@@ -148,6 +149,19 @@ TEST(Icp, FailsByNameOnTooFewPointsBrokenMeshesAndCancel) {
             ErrorCode::kInvalidOption);
   context.cancel();
   EXPECT_EQ(code(points, cube()), ErrorCode::kCancelled);
+}
+
+TEST(Icp, IsCancelledAmidTheSearchForPairs) {
+  const RunContext context;
+  std::atomic<int> asked = 0;
+  const IcpLookup slow = [&](const Vec3d&, double) -> IcpTarget {
+    ++asked;
+    context.cancel();
+    return {};
+  };
+  const std::vector<Vec3f> points(100000, Vec3f::Zero());
+  EXPECT_EQ(icp(points, slow, Pose::Identity(), {}, context).error().code, ErrorCode::kCancelled);
+  EXPECT_LT(asked, 100);
 }
 
 }  // namespace

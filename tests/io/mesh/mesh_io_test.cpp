@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <turnscan/io/mesh/mesh_formats.hpp>
 #include <turnscan/io/mesh/mesh_io.hpp>
 
 #include "tests/io/bytes.hpp"
@@ -146,6 +147,16 @@ TEST(MeshStl, ReadsTextWithSeveralSolids) {
   EXPECT_THAT(meshes->at(1).vertices, ElementsAre(Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(0, 1, 0)));
 }
 
+TEST(MeshStl, SolidsWithoutAFacetTakeNoMemory) {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += "solid empty\nendsolid\n";
+  text += "solid full\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendfacet\nendsolid\n";
+  const auto meshes = mesh_io::decode_stl(text + "solid\nendsolid\n");
+  ASSERT_TRUE(meshes) << meshes.error().text();
+  EXPECT_LE(meshes->size(), 2u);
+  EXPECT_EQ(meshes->front().name, "full");
+}
+
 TEST(MeshStl, BinaryFileMayBeginWithSolid) {
   const TempFolder folder;
   ASSERT_TRUE(write_mesh(folder / "m.stl", tetrahedron()));
@@ -228,6 +239,17 @@ TEST(MeshObj, KeepsObjectsApart) {
     EXPECT_EQ(back->at(i).colors, meshes[i].colors);
   }
   EXPECT_EQ(read_mesh(folder / "m.obj")->vertices.size(), 12U);
+}
+
+TEST(MeshObj, ObjectsWithoutNumberAreRefused) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 100000; ++i) text += "o a\nf 1 2 3\n";
+  EXPECT_THAT(error_of("m.obj", text), HasSubstr("out of all proportion"));
+  // Where each has vertices of its own they are what they are.
+  text.clear();
+  for (int i = 0; i < 50000; ++i)
+    text += "o part_of_it\nv 0.125 0.25 0.5\nv 1.125 0.25 0.5\nv 0.125 1.25 0.5\nf -3 -2 -1\n";
+  EXPECT_EQ(read_text("m.obj", text).value().size(), 50000u);
 }
 
 TEST(MeshObj, ReadsEveryKindOfCorner) {

@@ -108,11 +108,42 @@ TEST(JsonBytes, ValuesThatTakeFarMoreMemoryThanTheirTextAreRefused) {
   const auto refused = parse_json(members + "]");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kResourceLimit);
+  // So does a text.
+  std::string texts = "[0";
+  for (int i = 0; i < 3000000; ++i) texts += ",\"\"";
+  EXPECT_FALSE(parse_json(texts + "]"));
   std::string numbers = "[0";
   for (int i = 0; i < 3000000; ++i) numbers += ",1";
   EXPECT_TRUE(parse_json(numbers + "]"));
   // As a part of a small file it is out of proportion, too.
   EXPECT_FALSE(parse_json(numbers + "]", file::ReadBudget(1000)));
+}
+
+TEST(ForEachJsonMember, TakesThemInTheOrderOfTheFile) {
+  std::string taken;
+  const auto take = [&](const std::string& name, const Json& value) -> Result<> {
+    taken += name + value.dump() + ' ';
+    if (name == "bad") return fail(ErrorCode::kFormat, "bad");
+    return {};
+  };
+  EXPECT_TRUE(for_each_json_member("{}", {}, take));
+  EXPECT_EQ(taken, "");
+  EXPECT_TRUE(for_each_json_member(R"({"b": {"x": {"y": 1}, "z": [[2]]}, "a": [3, {}], "c": null,
+                                       "b": "again"})",
+                                   {}, take));
+  EXPECT_EQ(taken, R"(b{"x":{"y":1},"z":[[2]]} a[3,{}] cnull b"again" )");
+  taken.clear();
+  EXPECT_EQ(for_each_json_member(R"({"a": 1, "bad": 2, "c": 3})", {}, take).error().message, "bad");
+  EXPECT_EQ(taken, "a1 bad2 ");
+}
+
+TEST(ForEachJsonMember, NeedsAnObject) {
+  const auto none = [](const std::string&, const Json&) -> Result<> { return {}; };
+  for (const char* text : {"[1, {\"a\": 2}]", "1", "", "{\"a\": 1", "{\"a\": 1} x"})
+    EXPECT_EQ(for_each_json_member(text, {}, none).error().code, ErrorCode::kFormat) << text;
+  RunContext context;
+  context.cancel();
+  EXPECT_EQ(for_each_json_member("{}", context, none).error().code, ErrorCode::kCancelled);
 }
 
 }  // namespace

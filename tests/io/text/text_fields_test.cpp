@@ -47,6 +47,14 @@ TEST(CsvFields, QuotesHoldCommasAndQuotes) {
 
 TEST(CsvFields, LineOfCommasIsRefused) { EXPECT_FALSE(csv_fields(std::string(1000000, ','))); }
 
+TEST(CsvFields, AFieldIsNoLongerThanAPath) {
+  const std::string longest(4096, 'a');
+  EXPECT_THAT(fields(longest + ",b"), ElementsAre(longest, "b"));
+  EXPECT_THAT(fields('"' + longest + "\",b"), ElementsAre(longest, "b"));
+  EXPECT_FALSE(csv_fields(longest + "a,b"));
+  EXPECT_FALSE(csv_fields('"' + longest + "a\",b"));
+}
+
 TEST(ParseIndex, TakesDigitsUpToTheMaximum) {
   EXPECT_EQ(parse_index("000042", 100).value(), 42u);
   for (const char* bad : {"", "-1", "1.5", "101", "99999999999", "x", " 1", "0x1"})

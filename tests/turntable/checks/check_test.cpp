@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <numbers>
 #include <turnscan/simulator/objects/builtin_objects.hpp>
 #include <turnscan/turntable/checks/check.hpp>
@@ -105,6 +106,20 @@ TEST(MeasureClosure, NeedsATurntableAndAWholeTurn) {
   EXPECT_FALSE(measure_closure(sequence, {})->has_value());
   sequence.header_value.turntable.reset();
   EXPECT_EQ(measure_closure(sequence, {}).error().code, ErrorCode::kMissingData);
+}
+
+TEST(MeasureClosure, LooksAtManyFramesInTimeThatGrowsWithTheirNumber) {
+  if (testing::kSanitized) GTEST_SKIP() << "it takes time";
+  auto sequence = recording();
+  const FrameInfo one = sequence.infos.front();
+  sequence.infos.assign(400000, one);
+  for (std::size_t i = 0; i < sequence.infos.size(); ++i) {
+    sequence.infos[i].index = std::uint32_t(i);
+    sequence.infos[i].angle_rad = 1e-9 * double(i);  // no two are a turn apart
+  }
+  const std::clock_t begin = std::clock();
+  EXPECT_FALSE(measure_closure(sequence, {})->has_value());
+  EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 10.0);
 }
 
 TEST(MeasureClosure, WhatNoiseAloneShowsCondemnsNoCalibration) {
