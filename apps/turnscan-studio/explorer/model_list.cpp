@@ -124,7 +124,7 @@ QWidget* ModelList::make_buttons() {
   auto* row = new QWidget(this);
   auto* layout = new QHBoxLayout(row);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(6);
+  layout->setSpacing(2);  // the column is as narrow as this row
   auto* open = button(tr("Open…"), tr("Load meshes, clouds or recordings (Ctrl+O)"), row);
   auto* save = button(tr("Save…"), tr("Save the selected model (Ctrl+S)"), row);
   auto* edit = tool_button(tr("Edit"), tr("Rename, colour, duplicate, delete"), row);

@@ -70,7 +70,7 @@ class EvaluateCommand : public Command {
     line.group("error-map", "Maps", describe(map_options_));
     line.group("artefact", "Artefact", describe(artefact_));
     line.common({"reference", "align", "seen-from", "thresholds", "error-map", "json", "unit",
-                 "reference-unit", "samples", "tolerance", "artefact", "elements", "elements-csv"});
+                 "reference-unit", "samples", "tolerance", "artefact", "elements"});
   }
 
   FileRoles files() const override {

@@ -257,7 +257,8 @@ Result<> Jobs::answer(bool another_side) {
   if (!job_ || job_->state != State::kAsking)
     return fail(ErrorCode::kMissingData, "nothing was asked");
   job_->answer = another_side;
-  wake_.notify_all();
+  job_->state = State::kRunning;  // at once: whoever looks again is not asked again
+  changed();
   return {};
 }
 
