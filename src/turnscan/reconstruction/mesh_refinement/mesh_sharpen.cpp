@@ -105,14 +105,13 @@ std::vector<Vec3f> sharpening_steps(const TriangleMesh& mesh, const std::vector<
     blend(step, neighbours, Vec3f(Vec3f::Zero()));
     blend(weight, neighbours, 0.0f);
   }
-  const std::vector<float> trust = measured_shares(weight);
   parallel_for(n, 1024, [&](std::size_t v) {
     const float length = weight[v] > 0.0f ? step[v].norm() / weight[v] : 0.0f;
     if (!(length > kMin_m) || below_floor(mesh.vertices[v], scale)) {
       step[v].setZero();
       return;
     }
-    step[v] *= trust[v] * std::min(float(2.0 * scale.limit_m), length - kMin_m) / step[v].norm();
+    step[v] *= std::min(float(2.0 * scale.limit_m), length - kMin_m) / step[v].norm();
   });
   return step;
 }
