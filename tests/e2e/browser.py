@@ -105,7 +105,8 @@ class Browser:
             page.call(f"{domain}.enable")
         page.resize(width, height)
         page.call("Page.navigate", url=address)
-        page.wait("document.readyState === 'complete'")
+        # The blank page before it is complete, too.
+        page.wait("location.href !== 'about:blank' && document.readyState === 'complete'")
         return page
 
 
