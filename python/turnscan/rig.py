@@ -14,6 +14,11 @@ _BETWEEN_LOOKS_S = 0.25
 _PIECE = 1 << 16
 
 
+def _path(*names):
+    """Of what belongs to a scan. No name becomes more than one part of it."""
+    return "/".join(["scans", *(_parse.quote(name, safe="") for name in names)])
+
+
 class Rig:
     """The rig that `turnscan serve` makes of a computer: Rig("http://rig:8470", token="...").
 
@@ -74,11 +79,11 @@ class Rig:
 
     def describe(self, scan):
         """One scan: state, frames, bytes, files."""
-        return self._json("GET", f"scans/{_parse.quote(scan, safe='')}")
+        return self._json("GET", _path(scan))
 
     def verdict(self, scan):
         """How good each object of a scan is, and how to lay it for another pass."""
-        return self._json("GET", f"scans/{_parse.quote(scan, safe='')}/verdict")
+        return self._json("GET", _path(scan, "verdict"))
 
     def state(self):
         """What the rig does now, and whether somebody operates it."""
@@ -98,13 +103,11 @@ class Rig:
 
     def resume(self, scan, *, ask=None, progress=None):
         """Goes on with a recording that was not finished; without ask it is the last pass."""
-        path = f"scans/{_parse.quote(scan, safe='')}/resume"
-        return self.wait(self._operate(path)["id"], ask=ask, progress=progress)
+        return self.wait(self._operate(_path(scan, "resume"))["id"], ask=ask, progress=progress)
 
     def reconstruct(self, scan, *, progress=None):
         """Makes meshes and report of a recording again."""
-        path = f"scans/{_parse.quote(scan, safe='')}/reconstruct"
-        return self.wait(self._operate(path)["id"], progress=progress)
+        return self.wait(self._operate(_path(scan, "reconstruct"))["id"], progress=progress)
 
     def wait(self, scan, *, ask=None, progress=None):
         """Until its scan or reconstruction has ended; returns the scan's id. A scan goes on while
@@ -142,7 +145,7 @@ class Rig:
 
     def delete(self, scan):
         """Deletes a scan, its recording and all that was made of it."""
-        self._operate(f"scans/{_parse.quote(scan, safe='')}", method="DELETE")
+        self._operate(_path(scan), method="DELETE")
 
     def cancel(self):
         """Ends what the rig does; what was recorded is kept."""
@@ -152,7 +155,7 @@ class Rig:
         """Copies a file of a scan ("mesh.3mf") to a path, whole or not at all; returns the path."""
         path = _os.fspath(name if path is None else path)
         part = f"{path}.{_os.getpid()}.part"
-        where = f"scans/{_parse.quote(scan, safe='')}/files/{_parse.quote(name, safe='')}"
+        where = _path(scan, "files", name)
         with self._open("GET", where) as answer:
             left = answer.length
             try:

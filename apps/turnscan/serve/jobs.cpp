@@ -69,9 +69,6 @@ Result<std::string> Jobs::start_scan(const std::vector<std::string>& devices,
 Result<> Jobs::resume_scan(const std::string& id, const std::vector<std::string>& devices) {
   const std::lock_guard starting(starting_);
   TURNSCAN_TRY(check_free());
-  TURNSCAN_ASSIGN(const Json scan, store_.describe(id));
-  if (scan["state"] != "unfinished")
-    return fail(ErrorCode::kMissingData, "this scan was finished; there is nothing to go on with");
   TURNSCAN_ASSIGN(const fs::path folder, store_.folder(id));
   ScanRequest request = settings_;
   request.setup.devices = devices;

@@ -38,7 +38,7 @@ class Jobs {
   Result<std::string> start_scan(const std::vector<std::string>& devices,
                                  std::optional<int> passes);
   /// Goes on with a recording that was not finished, and asks after each pass. Fails with
-  /// kDeviceBusy, kNotFound, and kMissingData if it was finished.
+  /// kDeviceBusy, and with kNotFound for an id without a scan.
   Result<> resume_scan(const std::string& id, const std::vector<std::string>& devices);
   /// Fails with kDeviceBusy, and with kNotFound for an id without a scan.
   Result<> start_reconstruction(const std::string& id);

@@ -360,8 +360,10 @@ Result<Json> Rig::reconstruct(Call& call) {
 
 Result<Json> Rig::resume(Call& call) {
   TURNSCAN_ASSIGN(const Json scan, store_.describe(call.names[0]));
-  if (scan["state"] == "unfinished") TURNSCAN_TRY(check_device(call, scan["device"]));
-  TURNSCAN_TRY(jobs_.resume_scan(call.names[0], {scan.value("device", "")}));
+  if (scan["state"] != "unfinished")
+    return fail(ErrorCode::kMissingData, "this scan was finished; there is nothing to go on with");
+  TURNSCAN_TRY(check_device(call, scan["device"]));
+  TURNSCAN_TRY(jobs_.resume_scan(call.names[0], {scan["device"].get<std::string>()}));
   return Json{{"id", call.names[0]}};
 }
 

@@ -95,27 +95,26 @@ TEST(ElementFile, ErrorsNameTheElementAndWhatIsWrong) {
   EXPECT_THAT(error_of(file(many)), HasSubstr("301 entries, more than 256"));
 }
 
-TEST(ElementOutput, NoNameIsAFormulaAndWhatIsNotKnownIsEmpty) {
+ElementReport sphere(const std::string& name, double x_m, std::optional<double> sigma_m) {
   ElementReport report;
-  report.elements.push_back({"=1+1",
+  report.elements.push_back({name,
                              elements::Kind::kSphere,
                              12,
                              1e-3,
                              1e-4,
-                             {{"x", Quantity::kLength, 0.0123, std::nullopt, 0.0120}}});
+                             {{"x", Quantity::kLength, x_m, sigma_m, 0.0120}}});
+  return report;
+}
+
+TEST(ElementOutput, NoNameIsAFormulaAndWhatIsNotKnownIsEmpty) {
+  const ElementReport report = sphere("=1+1", 0.0123, std::nullopt);
   EXPECT_THAT(elements_csv(report), HasSubstr("\n'=1+1,sphere,12,1.0000000,x,mm,12.3000000,,12.0"));
   EXPECT_THAT(elements_text(report), HasSubstr("not known"));
   EXPECT_THAT(elements_json(report), HasSubstr("\"sigma\": null"));
 }
 
 TEST(ElementOutput, FiguresHaveTheDigitsThatSigmaAllows) {
-  ElementReport report;
-  report.elements.push_back({"ball",
-                             elements::Kind::kSphere,
-                             12,
-                             1e-3,
-                             1e-4,
-                             {{"x", Quantity::kLength, 0.0123456, 3.2e-5, 0.0120}}});
+  const ElementReport report = sphere("ball", 0.0123456, 3.2e-5);
   EXPECT_EQ(figure_rows(report).at(1),
             (std::vector<std::string>{"ball", "x", "12.346", "0.032", "12.000", "+0.346", "mm"}));
 }
