@@ -5,9 +5,7 @@
 #include <cmath>
 #include <turnscan/core/parallel.hpp>
 #include <turnscan/reconstruction/tsdf/harmonic_fill.hpp>
-#include <turnscan/reconstruction/tsdf/outside_flood.hpp>
 #include <turnscan/reconstruction/tsdf/platter_columns.hpp>
-#include <turnscan/reconstruction/tsdf/unobserved_filaments.hpp>
 #include <turnscan/reconstruction/tsdf/volume_samples.hpp>
 
 namespace turnscan::tsdf {
@@ -15,7 +13,6 @@ namespace turnscan::tsdf {
 namespace {
 
 constexpr int kMaxExtensions = 8;
-constexpr int kThreadRadius = 2;                   // samples
 constexpr float kBelowPlatter = -1.0f;             // temporary weight of an unknown sample there
 constexpr int kFirstRounds = 24, kMoreRounds = 8;  // of Jacobi
 
@@ -46,12 +43,9 @@ class HoleClosing {
       TURNSCAN_TRY(relax(bricks_at_surface(), round == 0 ? kFirstRounds : kMoreRounds));
       if (!extend(fill)) break;
     }
-    TURNSCAN_TRY(cut_threads());
     if (scale_.floor_m) extend_walls_to_platter();
     if (!scale_.platters.empty()) end_on_platters();
-    TURNSCAN_TRY(context_.check());
-    fill_enclosed();
-    return {};
+    return context_.check();
   }
 
  private:
@@ -326,35 +320,6 @@ class HoleClosing {
     return false;
   }
 
-  /// Between rims of the observed surface the harmonic function leaves filaments and fins.
-  Result<> cut_threads() {
-    const SampleBits threads = unobserved_filaments(v_, guessed_, kThreadRadius);
-    std::vector<std::uint8_t> around(v_.brick_count(), 0);
-    for (std::size_t b = 0; b < v_.brick_count(); ++b) {
-      if (cut(b, threads.brick(b))) mark_around(b, around);
-    }
-    return relax(marked(unknown_bricks(), around), kMoreRounds);
-  }
-
-  /// Sets samples of a brick permanently to outside. Returns whether there were any.
-  bool cut(std::size_t b, const BrickBits& bits) {
-    if (v_.slot[b] < 0) {
-      const bool all =
-          std::all_of(bits.begin(), bits.end(), [](auto layer) { return layer == kWholeLayer; });
-      if (all) v_.uniform[b] = 1.0f;
-      return all;
-    }
-    bool any = false;
-    const std::size_t first = v_.first_sample(b);
-    for (std::size_t c = 0; c < kBrickSamples; ++c) {
-      if (!contains(bits, c)) continue;
-      v_.value[first + c] = float(v_.truncation_m);
-      v_.weight[first + c] = 1e-6f;  // known from now on
-      any = true;
-    }
-    return any;
-  }
-
   void mark_around(std::size_t b, std::vector<std::uint8_t>& marks) const {
     const GridCoords at = v_.bricks.coords(b);
     for (int k = -1; k <= 1; ++k) {
@@ -407,22 +372,6 @@ class HoleClosing {
       }
     }
     for (const std::size_t b : more) v_.allocate(b, v_.uniform[b] * float(v_.truncation_m));
-  }
-
-  /// Free space that cannot be reached from beyond the volume becomes inside.
-  void fill_enclosed() {
-    const OutsideFlood flood(v_);
-    parallel_for(v_.brick_count(), 64, [&](std::size_t b) {
-      if (v_.slot[b] < 0) {
-        if (!flood.reached(b, 0)) v_.uniform[b] = -1.0f;
-        return;
-      }
-      float* value = &v_.value[v_.first_sample(b)];
-      for (std::size_t c = 0; c < kBrickSamples; ++c) {
-        if (value[c] >= 0.0f && !flood.reached(b, c))
-          value[c] = -std::max(value[c], 0.1f * float(v_.cell_m));
-      }
-    });
   }
 
   Volume& v_;

@@ -5,6 +5,7 @@
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/estimation/sensor_filter.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_color.hpp>
+#include <turnscan/reconstruction/mesh_refinement/mesh_creases.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_sharpen.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_untangle.hpp>
 #include <turnscan/reconstruction/mesh_refinement/plate_closing.hpp>
@@ -97,14 +98,16 @@ class VolumetricReconstruction {
                         return merge_clustered_vertices(std::move(component), surface.grid,
                                                         context_);
                       }));
+      const double share = filter_share(even);
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
                         return fit_mesh(even, input_.views, fit_scale(), context_);
                       }));
-      const double share = filter_share(fitted.mesh);
       if (options_.sharpen && share > 0.0)
         TURNSCAN_TRY(timed("sharpen", [&] {
           return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(), context_);
         }));
+      if (options_.fit)
+        timed("creases", [&] { mesh_refinement::straighten_creases(fitted.mesh, fitted.support); });
       // Behind thin parts a filtering sensor mixes the depths of both sides.
       TURNSCAN_TRY(timed("untangle", [&] {
         return mesh_refinement::untangle(fitted.mesh, even.vertices, {}, context_);
@@ -214,6 +217,8 @@ class VolumetricReconstruction {
     scale.floor_m = 0.1 * input_.noise_m + 0.1 * volume.cell_m;
     scale.limit_m = 2.0 * volume.cell_m;
     scale.fair_m = 4.0 * volume.cell_m;
+    // Without a filter that spreads steps, the pixels beside them measure like others.
+    if (!(filter_share_ > 0.0)) scale.edge_weight = 1.0f;
     scale.iterations = options_.fit ? options_.fit_iterations : 0;
     if (volume.floor_m) scale.floor_height_m = *volume.floor_m;
     return scale;
