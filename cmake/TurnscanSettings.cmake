@@ -19,6 +19,12 @@ add_library(turnscan_settings INTERFACE)
 target_compile_features(turnscan_settings INTERFACE cxx_std_20)
 # -ffp-contract=off: the same bytes with and without FMA units.
 target_compile_options(turnscan_settings INTERFACE -ffp-contract=off)
+# Eigen would call them by name on arm64, where every processor has them. GCC 12 notes there how older
+# ones passed pairs.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  target_compile_options(turnscan_settings INTERFACE -U__ARM_FEATURE_FMA
+                                                     "$<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>")
+endif()
 add_library(turnscan_warnings INTERFACE)
 target_compile_options(turnscan_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow
                                                    -Wnon-virtual-dtor -Woverloaded-virtual)

@@ -1,9 +1,9 @@
 #pragma once
 // The texture of a triangle mesh.
 
-#include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <turnscan/core/eigen.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <vector>
 

@@ -1,8 +1,8 @@
 #pragma once
 // Rigid transforms. A pose is named T_to_from: p_to = T_to_from * p_from.
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <turnscan/core/eigen.hpp>
 #include <turnscan/core/result.hpp>
 
 namespace turnscan {

@@ -93,6 +93,11 @@ inline unsigned bits(const I& mask) {
     out |= static_cast<unsigned>(_mm_movemask_ps(part[k])) << kNative * k;
 #endif
   }
+#elif defined(__ARM_NEON)
+  const I marked = mask & (1 << counting());
+  uint32x4_t part[kLanes / kNative];
+  __builtin_memcpy(part, &marked, sizeof part);
+  for (int k = 0; k < int(kLanes) / kNative; ++k) out |= vaddvq_u32(part[k]);
 #else
   for (int k = 0; k < int(kLanes); ++k) out |= (mask[k] != 0 ? 1u : 0u) << k;
 #endif

@@ -1,9 +1,9 @@
 #pragma once
 // The shapes that elements are: ideal surfaces, a circle and a line in a plane, a point.
 
-#include <Eigen/Core>
 #include <optional>
 #include <string_view>
+#include <turnscan/core/eigen.hpp>
 #include <turnscan/core/pose.hpp>
 #include <turnscan/geometry/estimation/linear_solvers.hpp>
 

@@ -3,8 +3,8 @@
 // compile time in every source that calls them; here they are behind functions, for the sizes in
 // use. Another size needs a line at the end of its source.
 
-#include <Eigen/Core>
 #include <memory>
+#include <turnscan/core/eigen.hpp>
 
 namespace turnscan::estimation {
 

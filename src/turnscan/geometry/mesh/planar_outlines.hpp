@@ -1,9 +1,9 @@
 #pragma once
 // Triangulation of the area that planar outlines enclose.
 
-#include <Eigen/Core>
 #include <optional>
 #include <span>
+#include <turnscan/core/eigen.hpp>
 #include <turnscan/geometry/mesh/edge_table.hpp>
 #include <vector>
 

@@ -1,8 +1,8 @@
 #pragma once
 // Selects the part of a mesh or cloud within a region of the screen.
 
-#include <Eigen/Core>
 #include <span>
+#include <turnscan/core/eigen.hpp>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/geometry/selection/selection.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 // Texture atlas: the layout of a mesh's triangles in a square image.
 
-#include <Eigen/Core>
 #include <array>
+#include <turnscan/core/eigen.hpp>
 #include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 // The axis of rotation with four unknowns: two tilts, and two shifts of its centre.
 
-#include <Eigen/Core>
+#include <turnscan/core/eigen.hpp>
 #include <turnscan/turntable/motion_input/frame_data.hpp>
 #include <utility>
 

@@ -1,9 +1,9 @@
 #pragma once
 // Point-to-plane residuals between two frames when one is rotated onto the other.
 
-#include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <turnscan/core/eigen.hpp>
 #include <turnscan/geometry/estimation/normal_equations.hpp>
 #include <turnscan/turntable/motion/motion_state.hpp>
 #include <turnscan/turntable/motion_input/frame_data.hpp>

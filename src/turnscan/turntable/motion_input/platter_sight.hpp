@@ -1,9 +1,9 @@
 #pragma once
 // Pose of the platter in a single frame, which reveals a wobbling table.
 
-#include <Eigen/Core>
 #include <optional>
 #include <turnscan/core/camera.hpp>
+#include <turnscan/core/eigen.hpp>
 #include <turnscan/core/frame.hpp>
 #include <turnscan/turntable/detection/detect.hpp>
 
