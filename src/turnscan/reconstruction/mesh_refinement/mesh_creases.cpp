@@ -41,7 +41,21 @@ struct Sample {
   bool rounded = false;  ///< too close to the crease to have a normal of either side
 };
 using Samples = std::span<const Sample>;
-using Weights = std::vector<float>;
+
+/// Weighted sums over samples; positions are close to 0, so that they lose no digits.
+struct Sums {
+  float weight = 0.0f;
+  Vec3f position = Vec3f::Zero(), normal = Vec3f::Zero();
+  Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();  ///< of positions
+
+  void add(const Sample& sample, float w) {
+    const Vec3f weighted = w * sample.position;
+    weight += w;
+    position += weighted;
+    normal += w * sample.normal;
+    squares += weighted * sample.position.transpose();
+  }
+};
 
 struct Plane {
   Vec3f normal = Vec3f::Zero();
@@ -61,24 +75,13 @@ Eigen::Matrix3f axes_of(const Eigen::Matrix3f& symmetric) {
 }
 
 /// The plane with the least squares of distances; its normal points as those of the samples.
-std::optional<Plane> plane_through(Samples samples, const Weights& weights) {
-  Vec3f middle = Vec3f::Zero(), outward = Vec3f::Zero();
-  float sum = 0.0f;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    middle += weights[i] * samples[i].position;
-    outward += weights[i] * samples[i].normal;
-    sum += weights[i];
-  }
-  if (sum < kMinSide) return std::nullopt;
-  middle /= sum;
-  Eigen::Matrix3f spread = Eigen::Matrix3f::Zero();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Vec3f d = samples[i].position - middle;
-    spread += weights[i] * d * d.transpose();
-  }
+std::optional<Plane> plane_through(const Sums& sums) {
+  if (sums.weight < kMinSide) return std::nullopt;
+  const Vec3f middle = sums.position / sums.weight;
+  const Eigen::Matrix3f spread = sums.squares - middle * sums.position.transpose();
   Plane out;
   out.normal = axes_of(spread / spread.trace()).col(0);
-  if (out.normal.dot(outward) < 0.0f) out.normal = -out.normal;
+  if (out.normal.dot(sums.normal) < 0.0f) out.normal = -out.normal;
   out.offset = out.normal.dot(middle);
   return out;
 }
@@ -162,71 +165,77 @@ float quadratic_misfit(Samples samples, const Vec3f& up, float cut, float edge_m
   return best;
 }
 
-/// Each sample with its weight on the side whose plane is closer, unless the crease is too close.
-/// Returns the distance at which residuals are cut off.
-float divide(std::span<Sample> samples, const Crease& crease, float rounded,
-             std::array<Weights, 2>& sides) {
+/// Samples by the plane that is closer, unless the crease is too close.
+struct Division {
+  std::array<Sums, 2> sides;
+  float cut = 0.0f;  ///< distance at which residuals are cut off
+};
+
+Division divide(std::span<Sample> samples, const Crease& crease, float rounded) {
+  const auto& [a, b] = crease.plane;
   std::vector<float> distances(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i)
-    distances[i] = std::min(std::abs(crease.plane[0].above(samples[i].position)),
-                            std::abs(crease.plane[1].above(samples[i].position)));
+    distances[i] =
+        std::min(std::abs(a.above(samples[i].position)), std::abs(b.above(samples[i].position)));
   std::vector<float> ordered = distances;
-  const float cut = kPlaneCut * float(1.4826 * median(ordered));
+  Division out;
+  out.cut = kPlaneCut * float(1.4826 * median(ordered));
+  if (!(out.cut > 0.0f)) return out;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Vec3f& p = samples[i].position;
-    const bool first = distances[i] == std::abs(crease.plane[0].above(p));
-    samples[i].rounded = !(crease.to_line(p).norm() > rounded);
-    const float weight =
-        samples[i].rounded || !(cut > 0.0f) ? 0.0f : samples[i].weight * tukey(distances[i], cut);
-    sides[0][i] = first ? weight : 0.0f;
-    sides[1][i] = first ? 0.0f : weight;
+    Sample& sample = samples[i];
+    sample.rounded = !(crease.to_line(sample.position).norm() > rounded);
+    const std::size_t side = distances[i] == std::abs(a.above(sample.position)) ? 0 : 1;
+    if (!sample.rounded && distances[i] < out.cut)
+      out.sides[side].add(sample, sample.weight * tukey(distances[i], out.cut));
   }
-  return cut;
+  return out;
+}
+
+/// Samples on both sides of the mean of the normals, along the axis in which those differ most.
+std::optional<Division> divide_by_normals(Samples samples) {
+  Sums all;
+  Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
+  for (const Sample& s : samples) {
+    all.add(s, s.weight);
+    squares += s.weight * s.normal * s.normal.transpose();
+  }
+  if (all.weight < 2.0f * kMinSide) return std::nullopt;
+  const Vec3f mean = all.normal / all.weight;
+  const Vec3f apart = axes_of(squares - mean * all.normal.transpose()).col(2);
+  Division out;
+  for (const Sample& s : samples)
+    out.sides[apart.dot(s.normal - mean) > 0.0f ? 0 : 1].add(s, s.weight);
+  const Vec3f &a = out.sides[0].normal, &b = out.sides[1].normal;
+  // Rounded in the middle, so that the means differ less than the planes.
+  if (a.dot(b) > kBendCosine * a.norm() * b.norm()) return std::nullopt;
+  return out;
 }
 
 std::optional<Crease> crease_in(std::span<Sample> samples, float edge_m) {
-  Vec3f mean = Vec3f::Zero();
-  float sum = 0.0f;
-  for (const Sample& s : samples) mean += s.weight * s.normal, sum += s.weight;
-  if (sum < 2.0f * kMinSide) return std::nullopt;
-  mean /= sum;
-  Eigen::Matrix3f spread = Eigen::Matrix3f::Zero();
-  for (const Sample& s : samples)
-    spread += s.weight * (s.normal - mean) * (s.normal - mean).transpose();
-  const Vec3f apart = axes_of(spread).col(2);
-  std::array<Weights, 2> sides{Weights(samples.size()), Weights(samples.size())};
-  std::array<Vec3f, 2> normals{Vec3f::Zero(), Vec3f::Zero()};
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const std::size_t side = apart.dot(samples[i].normal - mean) > 0.0f ? 0 : 1;
-    sides[side][i] = samples[i].weight;
-    normals[side] += samples[i].weight * samples[i].normal;
-  }
-  // Rounded in the middle, so that the means differ less than the planes.
-  if (normals[0].dot(normals[1]) > kBendCosine * normals[0].norm() * normals[1].norm())
-    return std::nullopt;
+  std::optional<Division> division = divide_by_normals(samples);
+  if (!division) return std::nullopt;
+  const Vec3f up = (division->sides[0].normal + division->sides[1].normal).normalized();
   Crease out;
-  float cut = 0.0f;
   for (int round = 0; round < kPlaneRounds; ++round) {
     for (std::size_t side = 0; side < 2; ++side) {
-      const std::optional<Plane> plane = plane_through(samples, sides[side]);
+      const std::optional<Plane> plane = plane_through(division->sides[side]);
       if (!plane) return std::nullopt;
       out.plane[side] = *plane;
     }
     if (!meet(out)) return std::nullopt;
     if (round > 0 && out.to_line(Vec3f::Zero()).norm() > 2.0f * kBeside * edge_m)
       return std::nullopt;  // too far to move the vertex, whatever the next rounds find
-    cut = divide(samples, out, kRounded * edge_m, sides);
+    division = divide(samples, out, kRounded * edge_m);
   }
-  float beyond = 0.0f;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    for (std::size_t side = 0; side < 2; ++side)
-      beyond += sides[side][i] * out.plane[1 - side].above(samples[i].position);
-  out.edge = beyond < 0.0f;
-  const float planes = misfit(samples, cut, edge_m, [&](const Vec3f& p) {
+  const auto& [a, b] = division->sides;
+  out.edge = a.position.dot(out.plane[1].normal) - a.weight * out.plane[1].offset +
+                 b.position.dot(out.plane[0].normal) - b.weight * out.plane[0].offset <
+             0.0f;
+  const float planes = misfit(samples, division->cut, edge_m, [&](const Vec3f& p) {
     return std::pair(out.at(p).above(p), out.at(p).normal);
   });
   if (!(planes < kMaxMisfit * edge_m)) return std::nullopt;
-  const float quadratic = quadratic_misfit(samples, mean.normalized(), cut, edge_m);
+  const float quadratic = quadratic_misfit(samples, up, division->cut, edge_m);
   if (!(planes < quadratic)) return std::nullopt;
   out.misfit = planes / quadratic;
   return out;
