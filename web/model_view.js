@@ -22,6 +22,7 @@ export class ModelView {
     this.camera.add(key);
     this.scene.add(this.camera);
     this.scene.add(group);
+    this.group = group;
     this.frame(group);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.target.copy(this.center);
@@ -37,6 +38,18 @@ export class ModelView {
     this.radius = Math.max(max.distanceTo(min) / 2, 1e-3);
     this.camera.near = this.radius / 50;
     this.camera.far = this.radius * 100;
+  }
+
+  // Another model in its place, seen from where the first was.
+  replace(group) {
+    const before = this.distance();
+    this.scene.remove(this.group);
+    this.group.traverse((node) => node.geometry?.dispose());
+    this.scene.add(group);
+    this.group = group;
+    this.frame(group);
+    this.turn(0, 0);
+    this.zoom(before / this.distance());
   }
 
   // All of the model is in the picture, whatever its shape.

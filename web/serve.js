@@ -1,12 +1,15 @@
 // The page of `turnscan serve`: one action at a time, for a person beside the turntable.
 
-import {Group, MeshStandardMaterial} from 'three';
+import {Group, Mesh, MeshStandardMaterial} from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import {ModelView, addKeys} from './model_view.js';
+import {MeshoptDecoder, unpack} from './packed_model.js';
 import {LANGUAGES, textsOf} from './serve_texts.js';
 
 const API = '/api/v1/';
 const RENEW_MS = 10000;  // the lease is kept for 30 s
+const SURFACE_MS = 1000;  // it is made while somebody asks every 5 s
+const CLAY = 0xccc4b8;  // of what has no colours
 const MESHES = {'mesh.3mf': '3MF', 'mesh.stl': 'STL', 'mesh.glb': 'GLB', 'mesh.ply': 'PLY'};
 const $ = (id) => document.getElementById(id);
 
@@ -19,6 +22,8 @@ let dismissed = null;  // the job whose end was seen
 let shown = null;      // the scan in the result card, as "id state"
 let shownStep = '';
 let view = null;
+let growing = null;       // the view of the surface that grows
+let grown = {number: 0};  // the surface in it, and of which job
 
 function stored(kind, name, value) {
   try {
@@ -134,6 +139,7 @@ function draw() {
   $('progress').hidden = job?.state !== 'running';
   if (job?.fraction == null) $('progress').removeAttribute('value');
   else $('progress').value = job.fraction;
+  drawSurface();
   show($('live'), job?.picture ? `${API}picture.jpg?${job.picture}` : '', text('live'));
   show($('advice'), now.advice ? `${API}scans/${job.id}/files/advice.png?${job.question.pass}` : '', text('advice'));
   if (now.error) trouble(now.error);
@@ -164,6 +170,45 @@ function show(image, source, alt) {
     image.onerror = () => { image.hidden = true; };
     image.src = source;
   } else if (image.complete && image.naturalWidth) image.hidden = false;
+}
+
+// From the first frames until the mesh is there.
+const surfaceIsOf = (job) => job?.state === 'running' && job.kind === 'scan' && job.frames > 0;
+
+function drawSurface() {
+  const is = grown.number > 0 && grown.job === state.job?.id && surfaceIsOf(state.job);
+  $('surface').hidden = !is;
+  $('surface').setAttribute('aria-label', text('surface'));
+  $('watch').hidden = !is && !state.job?.picture;
+}
+
+function takeSurface(next) {
+  const material = new MeshStandardMaterial({color: CLAY, roughness: 0.85});
+  const group = new Group().add(...next.model.objects.map((o) => new Mesh(unpack(o, []).geometry, material)));
+  if (growing) growing.replace(group);
+  else addKeys(growing = new ModelView($('surface'), group), $('surface'));
+  $('surface').dataset.frames = next.frames;
+}
+
+// Only for a page that is looked at.
+async function askForSurface() {
+  const {job} = state;
+  const complete = grown.job === job?.id && !job?.phase.startsWith('record');
+  if (document.hidden || !surfaceIsOf(job) || complete) return;
+  const next = await ask('GET', `surface?have=${grown.job === job.id ? grown.number : 0}`).catch(() => null);
+  if (!next || state.job?.id !== job.id) return;
+  grown = {job: job.id, number: next.number};
+  drawSurface();
+  if (next.model) takeSurface(next);
+}
+
+async function watchSurface() {
+  try {
+    for (await MeshoptDecoder.ready; ; await new Promise((go) => setTimeout(go, SURFACE_MS))) await askForSurface();
+  } catch {  // without WebAssembly or WebGL there is the picture alone
+    grown = {number: 0};
+    drawSurface();
+  }
 }
 
 async function showResult(id) {
@@ -245,7 +290,7 @@ async function showModel(source) {
       const {map} = node.material;
       node.material = new MeshStandardMaterial({map, roughness: 0.85,
                                                 vertexColors: !map && 'color' in node.geometry.attributes,
-                                                color: map || 'color' in node.geometry.attributes ? 0xffffff : 0xccc4b8});
+                                                color: map || 'color' in node.geometry.attributes ? 0xffffff : CLAY});
     });
     scene.scale.setScalar(1000);  // metres to millimetres
     if ($('model') !== canvas) return;
@@ -321,6 +366,7 @@ async function begin() {
   if (key || !state.operator) await operate();
   speak(wished.find((l) => l in LANGUAGES));
   watch();
+  watchSurface();
   setInterval(() => { if (operates) operate(); }, RENEW_MS);
   document.addEventListener('visibilitychange', () => { if (!document.hidden && operates) operate(); });
   devices = (await ask('GET', 'devices').catch(() => ({devices: []}))).devices;

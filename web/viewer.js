@@ -1,65 +1,15 @@
 // The 3D view of a report page. The page holds the model as JSON (#model-data, made by
 // src/turnscan/workflow/page) and works without this script: then pictures stand in its place.
 
-import {BufferAttribute, BufferGeometry, Color, Group, Mesh, MeshStandardMaterial} from 'three';
-import {MeshoptDecoder} from 'three/addons/libs/meshopt_decoder.module.js';
+import {Color, Group, Mesh, MeshStandardMaterial} from 'three';
 import {colorOf, gradient} from './colors.js';
 import {ModelView, ZOOM_STEP, addKeys} from './model_view.js';
+import {MeshoptDecoder, unpack} from './packed_model.js';
 
 const VIEWS = {  // azimuth from +Z towards +X and elevation, in degrees
   Front: [0, 0], Right: [90, 0], Back: [180, 0], Left: [-90, 0], Top: [0, 89.9], Bottom: [0, -89.9]
 };
 const FEW_TRIANGLES = 2000;  // of a drawn object, not of a scan: its edges are sharp
-
-function bytesOf(base64) {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  return bytes;
-}
-
-// Positions in millimetres; `values` of each field as numbers in the field's unit.
-function unpack(object, fields) {
-  const stride = object.stride;
-  const records = new Uint8Array(object.vertices * stride);
-  MeshoptDecoder.decodeVertexBuffer(records, object.vertices, stride,
-                                    bytesOf(object.vertex_stream));
-  const indices = new Uint8Array(object.triangles * 12);
-  MeshoptDecoder.decodeIndexBuffer(indices, object.triangles * 3, 4, bytesOf(object.index_stream));
-  const view = new DataView(records.buffer);
-  const positions = new Float32Array(object.vertices * 3);
-  for (let v = 0; v < object.vertices; ++v) {
-    for (let axis = 0; axis < 3; ++axis) {
-      const quantised = view.getUint16(v * stride + 2 * axis, true);
-      positions[3 * v + axis] = object.origin_mm[axis] + quantised * object.step_mm;
-    }
-  }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(positions, 3));
-  geometry.setAttribute('color', new BufferAttribute(new Float32Array(positions.length), 3));
-  geometry.setIndex(new BufferAttribute(new Uint32Array(indices.buffer), 1));
-  geometry.computeVertexNormals();
-  const values = {};
-  for (const field of fields) {
-    const offset = object.offsets[field.id];
-    if (offset === undefined) continue;
-    const array = new Float32Array(object.vertices);
-    const step = (field.to - field.from) / 65534;
-    for (let v = 0; v < object.vertices; ++v) {
-      const quantised = view.getUint16(v * stride + offset, true);
-      array[v] = quantised === 65535 ? NaN : field.from + quantised * step;
-    }
-    values[field.id] = array;
-  }
-  let surface = null;
-  if (object.offsets.colour !== undefined) {
-    surface = new Uint8Array(object.vertices * 3);
-    for (let v = 0; v < object.vertices; ++v)
-      surface.set(records.subarray(v * stride + object.offsets.colour,
-                                   v * stride + object.offsets.colour + 3), 3 * v);
-  }
-  return {geometry, values, surface};
-}
 
 function paint(part, field) {
   const colors = part.geometry.getAttribute('color');

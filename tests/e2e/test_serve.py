@@ -28,7 +28,22 @@ OPTIONS = ("--voxel-size", "4mm", "--min-free", "0")
 SHOTS = os.environ.get("TURNSCAN_SCREENSHOTS")
 SKIPPED = 77
 ENDS_WITHIN_S = 0.5
+SURFACE_BYTES = 500_000  # that a phone gets once a second
 MESHES = ("mesh.glb", "mesh.ply", "mesh.stl", "mesh.3mf")
+
+
+# Share of the growing surface's pixels that are not its background.
+DRAWN = """(() => {
+  const from = document.getElementById('surface'), to = document.createElement('canvas');
+  to.width = from.width;
+  to.height = from.height;
+  const pen = to.getContext('2d');
+  pen.drawImage(from, 0, 0);
+  const {data} = pen.getImageData(0, 0, to.width, to.height);
+  let drawn = 0;
+  for (let i = 0; i < data.length; i += 4) drawn += Math.abs(data[i] - data[0]) > 8;
+  return drawn / (data.length / 4);
+})()"""
 
 
 class Server(harness.TestCase):
@@ -159,12 +174,46 @@ class Server(harness.TestCase):
             own = name.replace("mesh", "own")
             self.ok("reconstruct", f"data/{scan}/recording", "--out", own, *OPTIONS[:2])
             self.assertEqual((self.dir / own).read_bytes(), before[name], name)
+        # Nobody asked for the growing surface, so that none was made.
+        self.assertEqual(self.got("GET", "/api/v1/surface"), {"number": 0, "frames": 0, "model": None})
         # Once more from the kept recording.
         self.got("POST", f"/api/v1/scans/{scan}/reconstruct", status=202)
         self.assertEqual(self.ended()["state"], "done")
         for name in MESHES:
             self.assertEqual(self.got("GET", f"/api/v1/scans/{scan}/files/{name}"), before[name])
         self.answers_are_as_described(scan)
+
+    def test_the_surface_grows_while_somebody_asks(self):
+        self.serve()
+        self.become_operator()
+        self.start_scan(BRISK)
+        seen = []
+        while (job := self.got("GET", "/api/v1/state")["job"])["state"] == "running":
+            have = seen[-1]["number"] if seen else 0
+            content = self.got("GET", f"/api/v1/surface?have={have}")
+            if content["model"]:
+                self.assertLess(len(json.dumps(content)), SURFACE_BYTES)
+                seen.append(content)
+            time.sleep(0.05)
+        self.assertEqual(job["state"], "asking", job)
+        self.assertGreater(len(seen), 1)
+        for before, after in zip(seen, seen[1:]):
+            self.assertGreater(after["number"], before["number"])
+            self.assertGreaterEqual(after["frames"], before["frames"])
+        self.assertGreater(seen[-1]["frames"], seen[0]["frames"])
+        # The doll, in millimetres.
+        box = seen[-1]["model"]["objects"][0]
+        self.assertGreater(box["vertices"], 500)
+        self.assertGreater(65534 * box["step_mm"], 80)
+        self.assertLess(65534 * box["step_mm"], 500)
+        # It stays, for a page that comes later, until something else is done.
+        last = self.got("GET", "/api/v1/surface")
+        self.assertEqual(last["number"], seen[-1]["number"])
+        self.assertEqual(last["model"], seen[-1]["model"])
+        self.got("POST", "/api/v1/job/cancel", status=202)
+        self.ended()
+        self.start_scan(DEVICE)
+        self.assertIsNone(self.got("GET", "/api/v1/surface")["model"])
 
     def answers_are_as_described(self, scan):
         described = self.got("GET", "/api/v1/openapi.json")
@@ -472,8 +521,21 @@ class Server(harness.TestCase):
             page.evaluate(press)
             page.wait(f"{title} === 'Recording'", harness.HANG_S)
             page.wait("!document.getElementById('live').hidden")
+            frames = "+(document.getElementById('surface').dataset.frames ?? 0)"
+            page.wait(f"!document.getElementById('surface').hidden && {frames} > 0")
+            before = page.evaluate(frames)
+            page.wait(f"{frames} > {before} || {title} !== 'Recording'")  # a slow machine may see one alone
+            self.assertGreater(page.evaluate(DRAWN), 0.02)
             self.keep(page, "record-360")
+            self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), 360)
+            page.resize(1440, 900)
+            self.keep(page, "record-1440")
+            page.resize(360, 640)
+            page.wait(f"{title} !== 'Recording'", harness.HANG_S)
+            self.assertEqual(page.evaluate(f"[{title}, document.getElementById('surface').hidden].join()"),
+                             "Computing the model,false")
             page.wait(f"{title} === 'Turn it over?'", harness.HANG_S)
+            self.assertTrue(page.evaluate("document.getElementById('surface').hidden"))
             page.wait("!document.getElementById('advice').hidden")
             self.keep(page, "turn-360")
             page.evaluate(press)

@@ -142,25 +142,17 @@ Result<CaptureResult> LiveFeed::Session::capture_now(const RecordingRequest& req
 }
 
 void LiveFeed::Session::begin_seen(const CaptureOptions& options) {
-  first_time_s_.reset();
-  shown_.reset();
   motion_.reset();
   seen_.reset();
   mesh_ = {};
   surfaces_ = 0;
-  speed_rad_s_ = options.speed_rad_s;
-  if (!speed_rad_s_ && header_.turntable) speed_rad_s_ = header_.turntable->speed_rad_s;
-  table_given_ = header_.turntable.has_value();
+  finder_.emplace(header_, options.speed_rad_s);
   T_turned_sensor_.assign(header_.sensors.size(), std::nullopt);
   surface_ = std::make_unique<LiveSurface>(header_);
 }
 
 void LiveFeed::Session::take_motion(const std::shared_ptr<const Calibration>& shown) {
-  if (!shown || shown == shown_) return;
-  shown_ = shown;
-  const auto motion = live_motion(table_given_ ? &*header_.turntable : nullptr, shown.get(),
-                                  std::nullopt, false, first_time_s_.value_or(0.0));
-  if (motion) place_by(*motion);
+  if (const auto motion = finder_->take(shown)) place_by(*motion);
 }
 
 void LiveFeed::Session::place_by(const LiveMotion& motion) {
@@ -174,13 +166,7 @@ void LiveFeed::Session::place_by(const LiveMotion& motion) {
 
 void LiveFeed::Session::see(const Frame& frame) {
   if (!surface_ || frame.info.status != FrameStatus::kOk) return;
-  if (!first_time_s_ && std::isfinite(frame.info.time_s)) first_time_s_ = frame.info.time_s;
-  const bool has_angle = frame.info.angle_rad.has_value();
-  if (!motion_ && (speed_rad_s_ || has_angle)) {
-    const auto motion = live_motion(table_given_ ? &*header_.turntable : nullptr, nullptr,
-                                    speed_rad_s_, has_angle, first_time_s_.value_or(0.0));
-    if (motion) place_by(*motion);
-  }
+  if (const auto motion = finder_->take(frame.info)) place_by(*motion);
   surface_->add(frame);
   if (!motion_) return;
   const std::optional<double> turned = motion_->turned_rad(frame.info);

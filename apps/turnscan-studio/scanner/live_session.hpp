@@ -57,9 +57,7 @@ struct LiveFeed::Session {
 
   // State of a recording.
   SequenceHeader header_;
-  bool table_given_ = false;  ///< else header_ has the one estimated from motion
-  std::optional<double> speed_rad_s_, first_time_s_;
-  std::shared_ptr<const Calibration> shown_;  ///< the last motion estimate that was taken over
+  std::optional<LiveMotionFinder> finder_;
   std::optional<LiveMotion> motion_;
   std::optional<LiveCoverage> seen_;
   std::unique_ptr<LiveSurface> surface_;

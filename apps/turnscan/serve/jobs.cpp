@@ -111,6 +111,7 @@ void Jobs::start(const std::string& id, const char* kind, PhasePlan plan, Work w
   job->id = id;
   job->kind = kind;
   job->overall.plan(std::move(plan));
+  surface_.clear();
   // Not the job itself: a context must not own what owns it.
   job->context.set_listener([this, raw = job.get()](const Progress& progress) {
     const std::lock_guard lock(mutex_);
@@ -164,8 +165,16 @@ void Jobs::changed() {
 
 Result<std::vector<std::string>> Jobs::scan(ScanRequest request, Job& job) {
   ScanHooks hooks;
-  hooks.progress = [&](const CaptureProgress& progress) { take_progress(job, progress); };
-  hooks.frame = [this](const Frame& frame) { take_frame(frame); };
+  hooks.progress = [&](const CaptureProgress& progress) {
+    take_progress(job, progress);
+    surface_.take(progress.motion);
+  };
+  hooks.begin = [this](const CaptureSetup& setup) { surface_.begin(setup); };
+  hooks.frame = [this](const Frame& frame) {
+    take_frame(frame);
+    surface_.add(frame);
+  };
+  hooks.recorded = [this] { surface_.end(); };
   hooks.another_side = [&](const std::string& advice, std::uint32_t pass) {
     return ask(job, advice, pass);
   };

@@ -14,6 +14,7 @@
 #include <turnscan/workflow/progress/overall_progress.hpp>
 #include <turnscan/workflow/scan/scan.hpp>
 
+#include "serve/growing_surface.hpp"
 #include "serve/scan_store.hpp"
 
 namespace turnscan::serve {
@@ -60,6 +61,7 @@ class Jobs {
   void wait_for_change(std::uint64_t& version, std::chrono::milliseconds most) const;
   /// The last frame of the last job; nullptr before there is one.
   std::shared_ptr<const LiveFrame> live_frame() const;
+  GrowingSurface& surface() { return surface_; }
 
   /// Cancels the job, and waits so long for its end; false: it has not ended.
   bool end(std::chrono::milliseconds most);
@@ -108,6 +110,7 @@ class Jobs {
   std::shared_ptr<const LiveFrame> frame_;
   std::uint64_t frames_taken_ = 0;
   std::chrono::steady_clock::time_point frame_time_;
+  GrowingSurface surface_;
   std::thread thread_;
 };
 

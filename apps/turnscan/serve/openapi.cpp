@@ -32,6 +32,10 @@ constexpr const char* kSchemas = R"json({
           "pass": {"type": "integer", "description": "that would follow, counted from 0"}}}]},
       "error": {"type": ["string", "null"]},
       "notes": {"type": "array", "items": {"type": "string"}}}},
+  "Surface": {"type": "object", "required": ["number", "frames", "model"], "properties": {
+    "number": {"type": "integer", "description": "of this mesh; 0: there is none"},
+    "frames": {"type": "integer"},
+    "model": {"type": ["object", "null"], "description": "as web/packed_model.js unpacks it"}}},
   "Devices": {"type": "object", "required": ["devices"], "properties": {"devices": {
     "type": "array", "items": {"type": "object", "required": ["uri", "model", "kind"],
       "properties": {"uri": {"type": "string"}, "model": {"type": "string"},
@@ -78,6 +82,9 @@ Json operation_of(const Route& route) {
     if (std::string(route.path).find(fmt::format("{{{}}}", name)) != std::string::npos)
       out["parameters"].push_back(
           {{"name", name}, {"in", "path"}, {"required", true}, {"schema", {{"type", "string"}}}});
+  if (*route.query != '\0')
+    out["parameters"].push_back(
+        {{"name", route.query}, {"in", "query"}, {"schema", {{"type", "string"}}}});
   if (route.of_operator)
     out["parameters"].push_back({{"name", "Turnscan-Operator"},
                                  {"in", "header"},

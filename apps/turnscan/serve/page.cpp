@@ -25,9 +25,10 @@ Page read_page() {
   const auto data = data_folder();
   if (!data) return page;
   page.html = read_file(*data / "page" / "serve.html").value_or("");
-  // A GLB's pictures become blobs.
+  // A GLB's pictures become blobs; the decoder of the growing surface is WebAssembly.
   page.policy = fmt::format(
-      "default-src 'none'; script-src '{}'; style-src '{}'; img-src 'self' blob: data:; "
+      "default-src 'none'; script-src '{}' 'wasm-unsafe-eval'; style-src '{}'; img-src 'self' "
+      "blob: data:; "
       "connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
       page::csp_hash(content_of(page.html, "script")),
       page::csp_hash(content_of(page.html, "style")));

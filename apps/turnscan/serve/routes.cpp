@@ -96,6 +96,11 @@ const std::vector<Route>& routes() {
        "What the sensor sees, or saw last (409: nothing yet). It is new when 'picture' of the job "
        "is",
        false, "", "image/jpeg", 200, &Rig::picture},
+      {"GET", "/api/v1/surface", "getSurface",
+       "The surface seen so far in the recording that runs, or ran last, and how many frames it is "
+       "made from. It is made while somebody asks at least every 5 seconds. 'model' is null if "
+       "there is none yet, or it has the number 'have'",
+       false, "", "Surface", 200, &Rig::surface, "have"},
       {"GET", "/api/v1/devices", "listDevices", "The sensors that can be scanned with", false, "",
        "Devices", 200, &Rig::devices},
       {"POST", "/api/v1/operator", "becomeOperator",
@@ -263,6 +268,16 @@ Result<Json> Rig::picture(Call& call) {
   if (!frame) return fail(ErrorCode::kMissingData, "no sensor has recorded yet");
   TURNSCAN_ASSIGN(const std::string jpeg, live_picture(*frame));
   call.response.set_content(jpeg, "image/jpeg");
+  return Json();
+}
+
+Result<Json> Rig::surface(Call& call) {
+  const auto newest = jobs_.surface().newest();
+  const bool known =
+      newest->number == 0 || call.request.get_param_value("have") == std::to_string(newest->number);
+  call.response.set_content(fmt::format(R"({{"number":{},"frames":{},"model":{}}})", newest->number,
+                                        newest->frames, known ? "null" : newest->model),
+                            kJsonType);
   return Json();
 }
 

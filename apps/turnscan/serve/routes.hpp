@@ -43,6 +43,7 @@ struct Route {
   const char* answer;  ///< name of a schema, or a media type; "" if there is nothing to say
   int status;          ///< when it succeeds
   Result<Json> (Rig::*run)(Call&);
+  const char* query = "";  ///< name of an optional parameter; "" if there is none
 };
 
 /// All of the interface.
@@ -67,6 +68,7 @@ class Rig {
   Result<Json> state(Call& call);
   Result<Json> events(Call& call);
   Result<Json> picture(Call& call);
+  Result<Json> surface(Call& call);
   Result<Json> devices(Call& call);
   Result<Json> become_operator(Call& call);
   Result<Json> leave(Call& call);

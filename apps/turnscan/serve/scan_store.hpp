@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <turnscan/core/result.hpp>
+#include <turnscan/core/run_context.hpp>
 #include <turnscan/io/file/folder.hpp>
 
 namespace turnscan::serve {

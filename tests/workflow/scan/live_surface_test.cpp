@@ -87,6 +87,18 @@ TEST(LiveSurface, KeepsABoundedNumberOfFramesSpreadOverTheWholeTime) {
   EXPECT_GT(kept.back()->info.index + step, std::uint32_t(kMany - 1));
 }
 
+TEST(LiveSurface, KeepsFramesWhileItRestsAndMakesNoMesh) {
+  const testing::Rig rig = ball_rig();
+  LiveSurface surface(rig.header());
+  surface.rest(true);
+  surface.set_motion(true_motion(rig));
+  for (std::size_t i = 0; i < rig.frames().size(); ++i) surface.add(*rig.read(i));
+  std::this_thread::sleep_for(1s);
+  EXPECT_FALSE(surface.take());
+  surface.rest(false);
+  EXPECT_FALSE(mesh_of(surface, rig.frames().size()).empty());
+}
+
 TEST(LiveSurface, EndsAtOnceWhileFramesWait) {
   const testing::Rig rig = ball_rig();
   const auto surface = std::make_unique<LiveSurface>(rig.header());
@@ -113,6 +125,27 @@ TEST(LiveMotion, TakesTheKnownTableAndTheShownSpeed) {
   EXPECT_NEAR(*motion->turned_rad(info), -0.4, 1e-12);
   info.angle_rad = 1.5;
   EXPECT_EQ(motion->turned_rad(info), 1.5);
+}
+
+TEST(LiveMotion, IsFoundOnceByFramesAndAnewByEachEstimate) {
+  SequenceHeader header;
+  header.turntable = TurntableInfo();
+  FrameInfo info;
+  info.time_s = 7.0;
+  EXPECT_FALSE(LiveMotionFinder(header, std::nullopt).take(info));  // nothing says how it turns
+  LiveMotionFinder finder(header, 0.2);
+  info.status = FrameStatus::kDropped;
+  EXPECT_FALSE(finder.take(info));
+  info.status = FrameStatus::kOk;
+  const auto motion = finder.take(info);
+  ASSERT_TRUE(motion);
+  EXPECT_EQ(motion->speed_rad_s, 0.2);
+  EXPECT_EQ(motion->start_s, 7.0);
+  EXPECT_FALSE(finder.take(info));
+  auto shown = std::make_shared<Calibration>();
+  shown->table.speed_rad_s = 0.3;
+  EXPECT_EQ(finder.take(shown)->speed_rad_s, 0.3);
+  EXPECT_FALSE(finder.take(shown));
 }
 
 TEST(LiveMotion, IsNotThereWhereTheTableIsKnownBadlyOrNothingSaysHowItTurns) {

@@ -53,6 +53,31 @@ std::optional<LiveMotion> live_motion(const TurntableInfo* known, const Calibrat
   return out;
 }
 
+LiveMotionFinder::LiveMotionFinder(const SequenceHeader& header, std::optional<double> speed_rad_s)
+    : table_(header.turntable), speed_rad_s_(speed_rad_s) {
+  if (!speed_rad_s_ && table_) speed_rad_s_ = table_->speed_rad_s;
+}
+
+std::optional<LiveMotion> LiveMotionFinder::take(const FrameInfo& frame) {
+  if (frame.status != FrameStatus::kOk) return std::nullopt;
+  if (!first_s_ && std::isfinite(frame.time_s)) first_s_ = frame.time_s;
+  const bool has_angle = frame.angle_rad.has_value();
+  if (found_ || (!speed_rad_s_ && !has_angle)) return std::nullopt;
+  auto motion = live_motion(table_ ? &*table_ : nullptr, nullptr, speed_rad_s_, has_angle,
+                            first_s_.value_or(0.0));
+  found_ = motion.has_value();
+  return motion;
+}
+
+std::optional<LiveMotion> LiveMotionFinder::take(const std::shared_ptr<const Calibration>& shown) {
+  if (!shown || shown == shown_) return std::nullopt;
+  shown_ = shown;
+  auto motion = live_motion(table_ ? &*table_ : nullptr, shown.get(), std::nullopt, false,
+                            first_s_.value_or(0.0));
+  found_ = found_ || motion.has_value();
+  return motion;
+}
+
 LiveSurface::LiveSurface(SequenceHeader header)
     : header_(std::move(header)), thread_([this] {
         process::lower_thread_priority();  // a preview must not cause dropped frames
@@ -91,6 +116,12 @@ void LiveSurface::set_motion(const LiveMotion& motion) {
   wake_.notify_all();
 }
 
+void LiveSurface::rest(bool resting) {
+  const std::lock_guard lock(mutex_);
+  resting_ = resting;
+  wake_.notify_all();
+}
+
 std::vector<std::shared_ptr<const Frame>> LiveSurface::frames() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::shared_ptr<const Frame>> out;
@@ -109,7 +140,9 @@ bool LiveSurface::wait_for_work(std::vector<Kept>& batch, std::optional<LiveMoti
     return std::find_if(kept_.begin(), kept_.end(),
                         [this](const Kept& kept) { return kept.number >= next_; });
   };
-  const auto ready = [&] { return closing_ || (motion_ && (anew_ || first() != kept_.end())); };
+  const auto ready = [&] {
+    return closing_ || (!resting_ && motion_ && (anew_ || first() != kept_.end()));
+  };
   if (pending_) {
     // Includes the last frames, even if none follows them.
     wake_.wait_for(lock, std::chrono::duration<double>(kMinPause_s), ready);
@@ -118,12 +151,13 @@ bool LiveSurface::wait_for_work(std::vector<Kept>& batch, std::optional<LiveMoti
   }
   if (closing_) return false;
   anew.reset();
+  batch.clear();
+  if (resting_) return true;
   if (anew_) {
     anew = motion_;
     anew_ = false;
     next_ = 0;
   }
-  batch.clear();
   for (auto kept = first(); kept != kept_.end() && batch.size() < kAtOnce; ++kept)
     batch.push_back(*kept);
   if (!batch.empty()) next_ = batch.back().number + 1;

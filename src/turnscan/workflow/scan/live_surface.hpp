@@ -33,6 +33,23 @@ std::optional<LiveMotion> live_motion(const TurntableInfo* known, const Calibrat
                                       std::optional<double> speed_rad_s, bool has_angles,
                                       double first_s);
 
+/// Finds the rotation as frames arrive, by live_motion().
+class LiveMotionFinder {
+ public:
+  /// Of a recording's header and speed, as far as they are known.
+  LiveMotionFinder(const SequenceHeader& header, std::optional<double> speed_rad_s);
+
+  /// The motion, if a frame or a new estimate shows it; nullopt: not yet, or the same as before.
+  std::optional<LiveMotion> take(const FrameInfo& frame);
+  std::optional<LiveMotion> take(const std::shared_ptr<const Calibration>& shown);
+
+ private:
+  std::optional<TurntableInfo> table_;
+  std::optional<double> speed_rad_s_, first_s_;
+  std::shared_ptr<const Calibration> shown_;  ///< the last estimate
+  bool found_ = false;
+};
+
 /// Adds an evenly spaced subset of the frames so far to a reconstruction on a separate thread, and
 /// makes coarse closed meshes from it. Callers never block: frames that it has no time for are
 /// included in the next mesh.
@@ -52,6 +69,8 @@ class LiveSurface {
   void add(const Frame& frame);
   /// Changes the motion: all frames so far are posed anew.
   void set_motion(const LiveMotion& motion);
+  /// While it rests, frames are kept and no mesh is made.
+  void rest(bool resting);
   /// The kept frames, oldest first.
   std::vector<std::shared_ptr<const Frame>> frames() const;
 
@@ -81,7 +100,7 @@ class LiveSurface {
   /// next_: number of the first frame not yet added.
   std::uint64_t came_ = 0, every_ = 1, next_ = 0;
   std::optional<LiveMotion> motion_;
-  bool anew_ = false, closing_ = false;
+  bool anew_ = false, closing_ = false, resting_ = false;
   std::optional<Update> update_;
 
   // Used by the thread only.

@@ -227,6 +227,7 @@ class ScanRun {
       if (ahead_ && !live_) ahead_->frame_came();
       return {};
     };
+    if (hooks_.begin) hooks_.begin(setup());
     context_.begin_phase(first ? "record" : "record another side", 1000);
     auto result =
         capture(source, out_.recording, setup().header, setup().settings, options, hooks, context_);

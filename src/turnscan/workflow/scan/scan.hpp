@@ -54,7 +54,8 @@ struct ScanHooks {
   /// there is another pass. Everything scanned so far is on disk. True: the object has been
   /// repositioned; false: no further pass. Empty: there is no user to ask.
   std::function<Result<bool>(const std::string& advice, std::uint32_t pass)> another_side;
-  std::function<void(const Frame&)> frame = {};  ///< each frame as it is recorded
+  std::function<void(const CaptureSetup&)> begin = {};  ///< a pass will be recorded
+  std::function<void(const Frame&)> frame = {};         ///< each frame as it is recorded
 };
 
 struct ScanOutcome {
