@@ -67,7 +67,20 @@ class Rig:
     def _operate(self, path, body=None, method="POST"):
         """The operator's key lapses after a while without use: it is taken again for each call."""
         self._key = self._json("POST", "operator")["key"]
-        return self._json(method, path, body)
+        try:
+            return self._json(method, path, body)
+        except Error:
+            self._leave()
+            raise
+
+    def _leave(self):
+        """So that the next program need not wait until the key lapses."""
+        try:
+            if self._key:
+                self._json("DELETE", "operator")
+        except Error:
+            pass
+        self._key = ""
 
     def devices(self):
         """The sensors that can be scanned with: a list of {"uri", "model", "kind"}."""
@@ -112,6 +125,12 @@ class Rig:
     def wait(self, scan, *, ask=None, progress=None):
         """Until its scan or reconstruction has ended; returns the scan's id. A scan goes on while
         nobody waits, so that this may be called again after the network failed."""
+        try:
+            return self._wait(scan, ask, progress)
+        finally:
+            self._leave()
+
+    def _wait(self, scan, ask, progress):
         while True:
             job = self.state()["job"]
             if job is None or job["id"] != scan:  # of another since, or the server is a new one
@@ -146,10 +165,12 @@ class Rig:
     def delete(self, scan):
         """Deletes a scan, its recording and all that was made of it."""
         self._operate(_path(scan), method="DELETE")
+        self._leave()
 
     def cancel(self):
         """Ends what the rig does; what was recorded is kept."""
         self._operate("job/cancel")
+        self._leave()
 
     def download(self, scan, name, path=None):
         """Copies a file of a scan ("mesh.3mf") to a path, whole or not at all; returns the path."""

@@ -18,7 +18,7 @@ import time
 
 import browser
 import harness
-from harness import FAILED, SENSOR, USAGE, run, start
+from harness import CANCELLED, FAILED, SENSOR, USAGE, run, start
 
 DEVICE = f"virtual:doll?sensor={SENSOR}&fps=3&speed=24deg/s&calibration=true"
 # A source that takes its time, so that something can happen to it meanwhile.
@@ -27,6 +27,7 @@ BRISK = f"virtual:doll?sensor={SENSOR}&fps=10&speed=36deg/s&calibration=true&rea
 OPTIONS = ("--voxel-size", "4mm", "--min-free", "0")
 SHOTS = os.environ.get("TURNSCAN_SCREENSHOTS")
 SKIPPED = 77
+TOKEN = "0123456789abcdef"
 ENDS_WITHIN_S = 0.5
 SURFACE_BYTES = 500_000  # that a phone gets once a second
 MESHES = ("mesh.glb", "mesh.ply", "mesh.stl", "mesh.3mf")
@@ -228,6 +229,64 @@ class Server(harness.TestCase):
                 method = next(iter(operations)).upper()
                 self.schema_holds(self.schemas["Error"], self.got(method, unknown, status=404), path)
 
+    def test_the_command_line_scans_on_a_rig_elsewhere(self):
+        self.write_token()
+        self.serve("--token", "token")
+        there = ("--server", f"http://127.0.0.1:{self.port}")
+        env = {"TURNSCAN_TOKEN": TOKEN}
+        self.assertIn(DEVICE, self.ok("devices", *there, "--json", "devices.json", env=env).stdout)
+        self.assertIn(DEVICE, [d["uri"] for d in json.loads((self.dir / "devices.json").read_text())["devices"]])
+        scan = ("scan", *there, "--device", DEVICE)
+        before = self.files()
+        self.refused(FAILED, "devices", *there, says="TURNSCAN_TOKEN")
+        self.refused(FAILED, *scan, "-o", "mine.ply", says="TURNSCAN_TOKEN")
+        self.refused(USAGE, *scan, "-o", "mine.ply", "--voxel-size", "4mm", says="--voxel-size: belongs to", env=env)
+        self.refused(USAGE, *scan, "-o", "mine.obj", says=".3mf", env=env)
+        self.refused(USAGE, "scan", *there, "--device", "virtual:none", "-o", "mine.ply", says="device", env=env)
+        self.refused(USAGE, "devices", "--server", "rig:8470", says="http://rig:8470")
+        self.refused(USAGE, "devices", "--server", f"http://rig:8470/?token={TOKEN}", says="TURNSCAN_TOKEN")
+        self.refused(FAILED, "devices", "--server", "http://127.0.0.1:1", says="does not answer")
+        self.assertEqual(self.files(), before)
+        done = self.ok(*scan, "-o", "mine.ply", "--recording", "mine.recording", "--report", "mine.json",
+                       "--report", "mine.html", env=env)
+        for said in ("1.0", "watertight", "Wrote mine.ply", "Wrote mine.recording"):
+            self.assertIn(said, done.stdout)
+        self.assertNotIn(str(self.dir), done.stdout)
+        self.assertIn("objects", json.loads((self.dir / "mine.json").read_text())["reconstruction"])
+        self.ok("info", "mine.recording")
+        self.ok("reconstruct", "mine.recording", "--out", "own.ply", *OPTIONS[:2])
+        self.assertEqual((self.dir / "own.ply").read_bytes(), (self.dir / "mine.ply").read_bytes())
+        listed = self.got("GET", "/api/v1/scans", Authorization=f"Bearer {TOKEN}")["scans"]
+        kept = self.dir / "data" / listed[0]["id"] / "recording"
+        for path in [p for p in kept.rglob("*") if p.is_file()]:
+            mine = self.dir / "mine.recording" / path.relative_to(kept)
+            self.assertEqual(mine.read_bytes(), path.read_bytes(), path)
+        self.refused(FAILED, *scan, "-o", "more.ply", "--recording", "mine.recording", says="mine.recording", env=env)
+        # What failed there fails here in the same way, and Ctrl-C ends both.
+        self.assertEqual(len(self.got("GET", "/api/v1/scans", Authorization=f"Bearer {TOKEN}")["scans"]), 1)
+        slow = start("scan", *there, "--device", SLOW, "-o", "slow.ply", "--quiet", cwd=self.dir, env=env)
+        self.operator = {"Authorization": f"Bearer {TOKEN}"}
+        self.wait_for(lambda job: job["state"] == "running" and job["frames"] > 5)
+        slow.send_signal(signal.SIGINT)
+        error = slow.communicate(timeout=60)[1]
+        self.assertEqual(slow.returncode, CANCELLED)
+        self.assert_one_line_error(error)
+        self.assertEqual(self.ended()["state"], "cancelled")
+        self.assertFalse((self.dir / "slow.ply").exists())
+
+    def test_an_error_of_the_rig_is_that_of_the_command(self):
+        broken = "virtual:doll?sensor=none-of-this-name"
+        self.serve("--device", broken)
+        here = run("scan", "--device", broken, "-o", "here.ply", "--quiet", cwd=self.dir)
+        there = run("scan", "--device", broken, "-o", "there.ply", "--quiet", "--server", self.address, cwd=self.dir)
+        self.assertEqual(there.returncode, here.returncode)
+        self.assert_one_line_error(there.stderr)
+        self.assertIn("none-of-this-name", there.stderr)
+
+    def write_token(self):
+        (self.dir / "token").write_text(TOKEN + "\n")
+        (self.dir / "token").chmod(0o600)
+
     def test_it_is_for_this_machine_and_its_own_page_alone(self):
         self.serve()
         state = "/api/v1/state"
@@ -253,7 +312,7 @@ class Server(harness.TestCase):
         (self.dir / "token").write_text("short\n")
         (self.dir / "token").chmod(0o600)
         self.refused(USAGE, "serve", "--token", "token", says="is no token")
-        (self.dir / "token").write_text("0123456789abcdef\n")
+        self.write_token()
         (self.dir / "token").chmod(0o604)
         self.refused(FAILED, "serve", "--token", "token", says="everybody can read")
         (self.dir / "token").chmod(0o600)
@@ -294,6 +353,28 @@ class Server(harness.TestCase):
         self.assertEqual([row[4:11] for row in rows[2:5]], corner)
         self.assertEqual([row[-11:-4] for row in rows[2:5]], corner)
         self.assertEqual(len([1 for row in rows if row[4:11] == corner[1]]), 2)
+
+    def test_no_path_leads_out_of_a_recording(self):
+        self.serve()
+        own = self.dir / "data" / "20260101-000000" / "recording"
+        (own / "depth").mkdir(parents=True)
+        (own / "frames.csv").write_text("frames")
+        (own / "depth" / "000000.png").write_text("image")
+        (self.dir / "secret").write_text("secret")
+        (own / "linked.csv").symlink_to(self.dir / "secret")
+        (own / "folder").symlink_to(self.dir)
+        os.mkfifo(own / "pipe")
+        base = "/api/v1/scans/20260101-000000/recording"
+        self.assertEqual(self.got("GET", base), {"files": [{"name": "frames.csv", "bytes": 6},
+                                                           {"name": "depth/000000.png", "bytes": 5}]})
+        self.assertEqual(self.got("GET", base + "/depth/000000.png"), b"image")
+        self.assertEqual(self.got("GET", base + "/frames.csv"), b"frames")
+        for path in ("linked.csv", "folder/secret", "pipe", "depth", "../secret", "..%2fsecret", "depth/..",
+                     "..", ".", "../..", "%2e%2e/%2e%2e", "depth/%00", "", "/"):
+            status, _, content = self.ask("GET", f"{base}/{path}")
+            self.assertIn(status, (400, 404), path)
+            self.assertNotIn("secret", str(content))
+        self.got("GET", "/api/v1/scans/../recording", status=404)
 
     def test_no_path_leads_out_of_the_folder(self):
         self.serve()

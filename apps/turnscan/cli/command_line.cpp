@@ -261,6 +261,14 @@ std::vector<std::string> CommandLine::files_read() const {
   return files;
 }
 
+std::vector<std::string> CommandLine::given() const {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app_.get_options())
+    if (option->count() > 0 && !option->get_lnames().empty())
+      names.push_back(option->get_lnames().front());
+  return names;
+}
+
 std::vector<std::string> CommandLine::long_names() const {
   std::vector<std::string> names;
   for (const CLI::Option* option : app_.get_options()) {

@@ -91,6 +91,8 @@ class CommandLine {
   std::vector<std::string> files_read() const;
 
   const std::vector<ArgumentGroup>& groups() const { return groups_; }
+  /// Long names, without dashes, of the options that were given.
+  std::vector<std::string> given() const;
   /// All long names, without dashes.
   std::vector<std::string> long_names() const;
 

@@ -8,6 +8,9 @@
 #include <turnscan/workflow/text/text_table.hpp>
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
+#ifdef TURNSCAN_WITH_SERVE
+#include "remote/remote_rig.hpp"
+#endif
 
 namespace turnscan::cli {
 
@@ -39,6 +42,11 @@ nlohmann::ordered_json json_of(const DriverState& driver) {
 class DevicesCommand : public Command {
  public:
   void declare(CommandLine& line) override {
+#ifdef TURNSCAN_WITH_SERVE
+    line.option("--server", "URL", server_,
+                "List what the rig scans with that turnscan serve offers, e.g. http://rig:8470. "
+                "Its token is read from the environment variable TURNSCAN_TOKEN");
+#endif
     line.option("--json", "FILE.json", json_, "Also write the list as JSON");
   }
 
@@ -47,6 +55,9 @@ class DevicesCommand : public Command {
   Result<> run(Session& session) override {
     TURNSCAN_TRY(check_output_file(json_, ".json"));
     session.context().begin_phase("look for devices", 0);
+#ifdef TURNSCAN_WITH_SERVE
+    if (!server_.empty()) return run_there(session);
+#endif
     const std::vector<DriverState> drivers = list_drivers();
     TURNSCAN_TRY(session.context().check());
     if (!json_.empty()) TURNSCAN_TRY(write_file_atomically(json_, json(drivers).dump(2) + "\n"));
@@ -67,6 +78,27 @@ class DevicesCommand : public Command {
   }
 
  private:
+#ifdef TURNSCAN_WITH_SERVE
+  Result<> run_there(Session& session) {
+    TURNSCAN_ASSIGN(auto rig, remote::RemoteRig::open(server_, session.context()));
+    TURNSCAN_ASSIGN(const remote::Json listed, rig.get("devices"));
+    workflow::TextTable table({0, 1, 2});
+    table.add({"URI", "device", "state"});
+    try {
+      for (const auto& device : listed.at("devices"))
+        table.add({device.at("uri"), device.at("model"),
+                   device.at("kind") == "sensor" ? "connected" : "ready"});
+    } catch (const remote::Json::exception&) {
+      return tl::unexpected<Error>(rig.not_understood());
+    }
+    if (!json_.empty()) TURNSCAN_TRY(write_file_atomically(json_, listed.dump(2) + "\n"));
+    session.print("{}", table.text());
+    if (!json_.empty()) session.print("Wrote {}\n", json_);
+    return {};
+  }
+
+  std::string server_;
+#endif
   static std::vector<std::string> folders() {
     std::vector<std::string> names;
     for (const auto& folder : plugin_folders()) names.push_back(folder.string());

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
 #include <turnscan/workflow/progress/phase_plans.hpp>
@@ -10,6 +11,9 @@
 #include "cli/commands.hpp"
 #include "commands/capture_arguments.hpp"
 #include "commands/stage_arguments.hpp"
+#ifdef TURNSCAN_WITH_SERVE
+#include "remote/remote_scan.hpp"
+#endif
 
 namespace turnscan::cli {
 
@@ -50,6 +54,14 @@ class ScanCommand : public Command {
     line.option("--advice-picture", "FILE.png", request_.advice_picture,
                 "Draw how to lay the object for the next pass, beside how it lay; surface that no "
                 "view saw is magenta");
+#ifdef TURNSCAN_WITH_SERVE
+    line.option("--server", "URL", server_,
+                "Scan on a rig that turnscan serve offers, e.g. http://rig:8470, with the options "
+                "that it was started with. Its token is read from the environment variable "
+                "TURNSCAN_TOKEN. The recording stays there, and is copied if --recording names a "
+                "folder");
+    line_ = &line;
+#endif
     declare_scan(line, request_, no_wait_);
     line.group("passes", "Passes", describe(passes_));
     line.group("limits", "End of the recording", describe(request_.setup.options.limits));
@@ -81,18 +93,38 @@ class ScanCommand : public Command {
     request_.report = reports.json;
     request_.page = reports.page;
     request_.passes = passes_.passes;
-    session.plan(scan_phases(request_));
     ScanHooks hooks{progress_in(session), [&session] { session.status().set(""); }, {}};
     if (request_.passes.value_or(0) > 1 || (!request_.passes && at_terminal()))
       hooks.another_side = [&](const std::string& advice, std::uint32_t pass) {
         return another_side(session, advice, pass);
       };
+#ifdef TURNSCAN_WITH_SERVE
+    if (!server_.empty()) return run_there(hooks, session);
+#endif
+    session.plan(scan_phases(request_));
     TURNSCAN_ASSIGN(const ScanOutcome outcome, run_scan(request_, hooks, session.context()));
     session.print("{}", scan_text(outcome));
     return check_joined(outcome.run.apart);
   }
 
  private:
+#ifdef TURNSCAN_WITH_SERVE
+  Result<> run_there(const ScanHooks& hooks, Session& session) {
+    static const std::vector<std::string> kHere{
+        "server",         "device", "out",   "recording", "report",
+        "advice-picture", "passes", "quiet", "threads",   "overwrite-unfinished"};
+    for (const std::string& name : line_->given())
+      if (std::find(kHere.begin(), kHere.end(), name) == kHere.end())
+        return fail(ErrorCode::kInvalidOption,
+                    "--{}: belongs to the turnscan serve that --server names; leave it out here",
+                    name);
+    TURNSCAN_ASSIGN(auto rig, remote::RemoteRig::open(server_, session.context()));
+    return remote::run_remote_scan(rig, request_, hooks.another_side, session);
+  }
+
+  const CommandLine* line_ = nullptr;
+  std::string server_;
+#endif
   static bool at_terminal() { return isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1; }
 
   Result<bool> another_side(Session& session, const std::string& advice, std::uint32_t pass) const {

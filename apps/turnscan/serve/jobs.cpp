@@ -8,6 +8,7 @@
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
+#include <turnscan/workflow/text/reconstruction_text.hpp>
 
 namespace turnscan::serve {
 
@@ -28,10 +29,6 @@ ReconstructFiles files_in(const fs::path& folder, const ScanRequest& settings) {
   files.page = (folder / "report.html").string();
   files.advice_picture = (folder / "advice.png").string();
   return files;
-}
-
-void note_apart(const ReconstructRun& run, std::vector<std::string>& notes) {
-  if (const auto joined = check_joined(run.apart); !joined) notes.push_back(joined.error().message);
 }
 
 }  // namespace
@@ -126,7 +123,7 @@ void Jobs::start(const std::string& id, const char* kind, PhasePlan plan, Work w
     changed();
   }
   thread_ = std::thread([this, job, work = std::move(work)] {
-    Result<std::vector<std::string>> result =
+    Result<Made> result =
         fail(ErrorCode::kLibrary, "the rig has run out of memory; use larger voxels");
     try {
       result = work(*job);
@@ -135,22 +132,28 @@ void Jobs::start(const std::string& id, const char* kind, PhasePlan plan, Work w
       result = fail(ErrorCode::kLibrary, "internal error: {}; please report it", error.what());
     }
     job->context.set_listener({});
-    finish(std::move(result));
+    finish(result);
   });
 }
 
-void Jobs::finish(Result<std::vector<std::string>> notes) {
+void Jobs::finish(const Result<Made>& made) {
   std::string id;
   {
     const std::lock_guard lock(mutex_);
     Job& job = *job_;
     id = job.id;
-    if (notes) {
+    if (made) {
       job.state = State::kDone;
-      for (const std::string& note : *notes) job.notes.push_back(without_folder(note));
+      job.text = without_folder(made->text);
+      for (const std::string& note : made->notes) job.notes.push_back(without_folder(note));
     } else {
-      job.state = notes.error().code == ErrorCode::kCancelled ? State::kCancelled : State::kFailed;
-      job.error = without_folder(notes.error().text());
+      job.state = made.error().code == ErrorCode::kCancelled ? State::kCancelled : State::kFailed;
+    }
+    if (const Error* error = !made           ? &made.error()
+                             : !made->joined ? &made->joined.error()
+                                             : nullptr) {
+      job.error = without_folder(error->text());
+      job.code = name_of(error->code);
     }
   }
   store_.remove_if_empty(id);
@@ -163,7 +166,7 @@ void Jobs::changed() {
   wake_.notify_all();
 }
 
-Result<std::vector<std::string>> Jobs::scan(ScanRequest request, Job& job) {
+Result<Jobs::Made> Jobs::scan(ScanRequest request, Job& job) {
   ScanHooks hooks;
   hooks.progress = [&](const CaptureProgress& progress) {
     take_progress(job, progress);
@@ -181,12 +184,14 @@ Result<std::vector<std::string>> Jobs::scan(ScanRequest request, Job& job) {
   const fs::path folder = fs::path(request.mesh).parent_path();
   TURNSCAN_ASSIGN(ScanOutcome outcome, run_scan(std::move(request), hooks, job.context));
   TURNSCAN_TRY(write_other_meshes(outcome.run, folder));
+  // Apart from the text, as are the files.
   std::vector<std::string> notes = std::move(outcome.notes);
-  note_apart(outcome.run, notes);
-  return notes;
+  outcome.notes.clear();
+  outcome.files.clear();
+  return Made{scan_text(outcome), std::move(notes), check_joined(outcome.run.apart)};
 }
 
-Result<std::vector<std::string>> Jobs::reconstruct(const fs::path& folder, Job& job) {
+Result<Jobs::Made> Jobs::reconstruct(const fs::path& folder, Job& job) {
   TURNSCAN_ASSIGN(const Recording recording, Recording::open(folder / "recording", job.context));
   ReconstructRequest request;
   request.options = settings_.reconstruct;
@@ -206,9 +211,7 @@ Result<std::vector<std::string>> Jobs::reconstruct(const fs::path& folder, Job& 
   TURNSCAN_ASSIGN(const ReconstructRun run,
                   run_reconstruction(named, request, job.context, write_meshes));
   TURNSCAN_TRY(write_beside(files, run, run_report(run, request.options), job.context));
-  std::vector<std::string> notes;
-  note_apart(run, notes);
-  return notes;
+  return Made{reconstruction_text(run.reconstruction), {}, check_joined(run.apart)};
 }
 
 Result<> Jobs::write_other_meshes(const ReconstructRun& run, const fs::path& folder) {
@@ -304,7 +307,10 @@ Json Jobs::state() const {
   out["picture"] = records ? Json(frame_->number) : Json();
   out["question"] =
       job.state == State::kAsking ? Json{{"advice", job.advice}, {"pass", job.pass}} : Json();
-  out["error"] = job.error.empty() ? Json() : Json(job.error);
+  const auto known = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
+  out["error"] = known(job.error);
+  out["code"] = known(job.code);
+  out["text"] = known(job.text);
   out["notes"] = job.notes;
   return out;
 }

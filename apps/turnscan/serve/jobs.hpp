@@ -79,21 +79,27 @@ class Jobs {
     std::string advice;
     std::uint32_t pass = 0;
     std::optional<bool> answer;
-    std::string error;
+    std::string error, code, text;
     std::vector<std::string> notes;
     std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
     bool ended() const { return state != State::kRunning && state != State::kAsking; }
   };
   void begin_scan(const std::string& id, ScanRequest request, const std::filesystem::path& folder);
-  using Work = std::function<Result<std::vector<std::string>>(Job&)>;
+  /// What a job has made.
+  struct Made {
+    std::string text;
+    std::vector<std::string> notes;
+    Result<> joined;  ///< check_joined()
+  };
+  using Work = std::function<Result<Made>(Job&)>;
 
   Result<> check_free() const;
   void start(const std::string& id, const char* kind, PhasePlan plan, Work work);
-  void finish(Result<std::vector<std::string>> notes);
+  void finish(const Result<Made>& made);
   void changed();
 
-  Result<std::vector<std::string>> scan(ScanRequest request, Job& job);
-  Result<std::vector<std::string>> reconstruct(const std::filesystem::path& folder, Job& job);
+  Result<Made> scan(ScanRequest request, Job& job);
+  Result<Made> reconstruct(const std::filesystem::path& folder, Job& job);
   Result<> write_other_meshes(const ReconstructRun& run, const std::filesystem::path& folder);
   Result<bool> ask(Job& job, const std::string& advice, std::uint32_t pass);
   void take_progress(Job& job, const CaptureProgress& progress);

@@ -16,7 +16,7 @@ constexpr const char* kSchemas = R"json({
     "job": {"oneOf": [{"type": "null"}, {"$ref": "#/components/schemas/Job"}]}}},
   "Job": {"type": "object",
     "required": ["id", "kind", "state", "phase", "fraction", "seconds_left", "frames", "picture",
-                 "question", "error", "notes"],
+                 "question", "error", "code", "text", "notes"],
     "properties": {
       "id": {"type": "string", "description": "of the scan"},
       "kind": {"enum": ["scan", "reconstruct"]},
@@ -30,7 +30,10 @@ constexpr const char* kSchemas = R"json({
         "properties": {
           "advice": {"type": "string", "description": "how to lay the object; see also advice.png"},
           "pass": {"type": "integer", "description": "that would follow, counted from 0"}}}]},
-      "error": {"type": ["string", "null"]},
+      "error": {"type": ["string", "null"],
+        "description": "why it failed; of a scan that is done: what did not fit"},
+      "code": {"type": ["string", "null"], "description": "of the error"},
+      "text": {"type": ["string", "null"], "description": "what was made, for people"},
       "notes": {"type": "array", "items": {"type": "string"}}}},
   "Surface": {"type": "object", "required": ["number", "frames", "model"], "properties": {
     "number": {"type": "integer", "description": "of this mesh; 0: there is none"},
@@ -61,6 +64,9 @@ constexpr const char* kSchemas = R"json({
     "files": {"type": "array", "items": {"type": "object", "required": ["name", "bytes", "type"],
       "properties": {"name": {"type": "string"}, "bytes": {"type": "integer"},
         "type": {"type": "string"}}}}}},
+  "Files": {"type": "object", "required": ["files"], "properties": {"files": {
+    "type": "array", "items": {"type": "object", "required": ["name", "bytes"],
+      "properties": {"name": {"type": "string"}, "bytes": {"type": "integer"}}}}}},
   "Verdict": {"type": "object", "required": ["objects", "next_pass"], "properties": {
     "next_pass": {"type": ["object", "null"]},
     "objects": {"type": "array", "items": {"type": "object", "required": ["name", "verdict"],
@@ -78,7 +84,7 @@ Json content_of(const std::string& what) {
 Json operation_of(const Route& route) {
   Json out{{"operationId", route.operation}, {"summary", route.summary}};
   out["parameters"] = Json::array();
-  for (const char* name : {"id", "name"})
+  for (const char* name : {"id", "folder", "name"})
     if (std::string(route.path).find(fmt::format("{{{}}}", name)) != std::string::npos)
       out["parameters"].push_back(
           {{"name", name}, {"in", "path"}, {"required", true}, {"schema", {{"type", "string"}}}});

@@ -130,6 +130,14 @@ const std::vector<Route>& routes() {
        false, "", "Verdict", 200, &Rig::verdict},
       {"GET", "/api/v1/scans/{id}/files/{name}", "getFile", "A mesh, a report, a picture", false,
        "", "application/octet-stream", 200, &Rig::file},
+      {"GET", "/api/v1/scans/{id}/recording", "listRecording",
+       "The files of a recording (409: it is being made)", false, "", "Files", 200,
+       &Rig::recording},
+      {"GET", "/api/v1/scans/{id}/recording/{name}", "getRecorded", "A file of a recording", false,
+       "", "application/octet-stream", 200, &Rig::recorded},
+      {"GET", "/api/v1/scans/{id}/recording/{folder}/{name}", "getRecordedImage",
+       "A file in a folder of a recording", false, "", "application/octet-stream", 200,
+       &Rig::recorded},
       {"POST", "/api/v1/scans/{id}/reconstruct", "reconstruct",
        "Make meshes and report of a recording again (409: the rig is at work)", true, "", "Started",
        202, &Rig::reconstruct},
@@ -357,15 +365,33 @@ Result<Json> Rig::file(Call& call) {
     call.response.set_header("Content-Disposition",
                              fmt::format("attachment; filename=\"{}-{}\"", call.names[0], name));
   }
+  give(call, file, media_type(name));
+  return Json();
+}
+
+Result<Json> Rig::recording(Call& call) {
+  if (jobs_.running_id() == call.names[0])
+    return fail(ErrorCode::kDeviceBusy, "the rig is at work on this scan");
+  return store_.recording(call.names[0]);
+}
+
+Result<Json> Rig::recorded(Call& call) {
+  const auto& names = call.names;
+  TURNSCAN_ASSIGN(const auto file,
+                  store_.recorded(names[0], names.size() > 2 ? names[1] : "", names.back()));
+  give(call, file, "application/octet-stream");
+  return Json();
+}
+
+void Rig::give(Call& call, const std::shared_ptr<const ResultFile>& file, const std::string& type) {
   const auto send = [file](std::size_t from, std::size_t left, httplib::DataSink& sink) {
     const std::string piece = file->read(from, std::min(left, kPiece));
     return !piece.empty() && sink.write(piece.data(), piece.size());
   };
   if (file->bytes() == 0)
-    call.response.set_content("", media_type(name));
+    call.response.set_content("", type);
   else
-    call.response.set_content_provider(file->bytes(), media_type(name), send);
-  return Json();
+    call.response.set_content_provider(file->bytes(), type, send);
 }
 
 Result<Json> Rig::reconstruct(Call& call) {

@@ -77,6 +77,8 @@ class Rig {
   Result<Json> scan(Call& call);
   Result<Json> verdict(Call& call);
   Result<Json> file(Call& call);
+  Result<Json> recording(Call& call);
+  Result<Json> recorded(Call& call);
   Result<Json> reconstruct(Call& call);
   Result<Json> resume(Call& call);
   Result<Json> remove(Call& call);
@@ -86,6 +88,8 @@ class Rig {
  private:
   void show_page(const httplib::Request& request, httplib::Response& response) const;
   void run(const Route& route, Call& call);
+  static void give(Call& call, const std::shared_ptr<const ResultFile>& file,
+                   const std::string& type);
   Json state_now() const;
   Json found_devices();
   /// Fails with kInvalidOption for what is none of /api/v1/devices.

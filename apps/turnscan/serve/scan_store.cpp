@@ -66,6 +66,45 @@ Json read_report(const std::string& text) {
   return report;
 }
 
+tl::unexpected<Error> no_file() { return fail(ErrorCode::kNotFound, "there is no such file"); }
+
+/// A name from outside is compared with those that are there.
+bool is_in(const file::Folder& folder, const std::string& name) {
+  const std::vector<std::string> names = folder.names();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Result<std::shared_ptr<const ResultFile>> opened(const file::Folder& folder,
+                                                 const std::string& name) {
+  if (!is_in(folder, name)) return no_file();
+  const int descriptor =
+      openat(folder.descriptor(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  struct stat status {};
+  if (descriptor < 0) return no_file();
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
+    close(descriptor);
+    return no_file();
+  }
+  return std::make_shared<const ResultFile>(descriptor, std::uint64_t(status.st_size));
+}
+
+/// Bytes of a regular file; nullopt: it is none.
+std::optional<std::uint64_t> bytes_of(const file::Folder& folder, const std::string& name) {
+  struct stat status {};
+  if (fstatat(folder.descriptor(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0 ||
+      !S_ISREG(status.st_mode))
+    return std::nullopt;
+  return std::uint64_t(status.st_size);
+}
+
+void list_files(const file::Folder& folder, const std::string& before, Json& files) {
+  std::vector<std::string> names = folder.names();
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names)
+    if (const auto bytes = bytes_of(folder, name))
+      files.push_back({{"name", before + name}, {"bytes", *bytes}});
+}
+
 }  // namespace
 
 ResultFile::~ResultFile() { close(descriptor_); }
@@ -163,14 +202,9 @@ Result<Json> ScanStore::describe(const std::string& id) const {
   out["files"] = Json::array();
   std::vector<std::string> names = own.names();
   std::sort(names.begin(), names.end());
-  for (const std::string& name : names) {
-    struct stat status {};
-    if (media_type(name).empty() ||
-        fstatat(own.descriptor(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0 ||
-        !S_ISREG(status.st_mode))
-      continue;
-    out["files"].push_back({{"name", name}, {"bytes", status.st_size}, {"type", media_type(name)}});
-  }
+  for (const std::string& name : names)
+    if (const auto bytes = bytes_of(own, name); bytes && !media_type(name).empty())
+      out["files"].push_back({{"name", name}, {"bytes", *bytes}, {"type", media_type(name)}});
   return out;
 }
 
@@ -193,18 +227,29 @@ Result<Json> ScanStore::verdict(const std::string& id) const {
 Result<std::shared_ptr<const ResultFile>> ScanStore::file(const std::string& id,
                                                           const std::string& name) const {
   TURNSCAN_ASSIGN(const file::Folder own, scan(id));
-  const std::vector<std::string> names = own.names();
-  const auto none = [] { return fail(ErrorCode::kNotFound, "there is no such file"); };
-  if (media_type(name).empty() || std::find(names.begin(), names.end(), name) == names.end())
-    return none();
-  const int descriptor = openat(own.descriptor(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-  struct stat status {};
-  if (descriptor < 0) return none();
-  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
-    close(descriptor);
-    return none();
-  }
-  return std::make_shared<const ResultFile>(descriptor, std::uint64_t(status.st_size));
+  if (media_type(name).empty()) return no_file();
+  return opened(own, name);
+}
+
+Result<Json> ScanStore::recording(const std::string& id) const {
+  TURNSCAN_ASSIGN(const file::Folder own, scan(id));
+  TURNSCAN_ASSIGN(const file::Folder root, own.subfolder(kRecording));
+  Json files = Json::array();
+  list_files(root, "", files);
+  for (const std::string& name : root.names())
+    if (const auto inner = root.subfolder(name)) list_files(*inner, name + "/", files);
+  return Json{{"files", std::move(files)}};
+}
+
+Result<std::shared_ptr<const ResultFile>> ScanStore::recorded(const std::string& id,
+                                                              const std::string& folder,
+                                                              const std::string& name) const {
+  TURNSCAN_ASSIGN(const file::Folder own, scan(id));
+  TURNSCAN_ASSIGN(const file::Folder root, own.subfolder(kRecording));
+  if (folder.empty()) return opened(root, name);
+  if (is_in(root, folder))
+    if (const auto inner = root.subfolder(folder)) return opened(*inner, name);
+  return no_file();
 }
 
 }  // namespace turnscan::serve

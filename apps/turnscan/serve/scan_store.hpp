@@ -60,6 +60,12 @@ class ScanStore {
   Result<Json> verdict(const std::string& id) const;
   Result<std::shared_ptr<const ResultFile>> file(const std::string& id,
                                                  const std::string& name) const;
+  /// {files: [{name, bytes}]} of the recording; name: "frames.csv", "depth/000000.png".
+  Result<Json> recording(const std::string& id) const;
+  /// folder: empty for the recording's own.
+  Result<std::shared_ptr<const ResultFile>> recorded(const std::string& id,
+                                                     const std::string& folder,
+                                                     const std::string& name) const;
   Result<std::filesystem::path> folder(const std::string& id) const;
 
   const std::filesystem::path& root() const { return root_->path(); }
