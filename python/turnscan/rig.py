@@ -26,10 +26,10 @@ class Rig:
 
     def __init__(self, url, token=None):
         parts = _parse.urlsplit(url)
-        if parts.scheme != "http" or not parts.hostname:
+        if parts.scheme not in ("http", "https") or not parts.hostname:
             raise Error(f"{url}: the address of a rig looks like http://rig:8470", "invalid-option")
         self._token = token or next(iter(_parse.parse_qs(parts.query).get("token", [])), None)
-        self._url = f"http://{parts.netloc}"
+        self._url = f"{parts.scheme}://{parts.netloc}"
         self._key = ""
         # No proxy: the token is for the rig alone.
         self._opener = _request.build_opener(_request.ProxyHandler({}))

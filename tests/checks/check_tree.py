@@ -29,6 +29,7 @@ LIBRARIES = [
     ("a file library", r"png\.h|jpeglib\.h|turbojpeg|lib3mf|assimp/|tiny_gltf|Model/COM/|NMR_",
      ("src/turnscan/io/", "apps/turnscan-mesh-convert/", "tests/"), False),
     ("spdlog (libraries do not log, and programs need no more than a line)", r"spdlog/", (), False),
+    ("OpenSSL", r"openssl/", ("apps/turnscan/serve/",), False),
     ("CLI11", r"CLI/", ("apps/turnscan/",), False),
     ("toml++", r"toml\+\+/|toml\.hpp",
      ("apps/", "src/turnscan/io/", "src/turnscan/sensors/", "src/turnscan/simulator/",

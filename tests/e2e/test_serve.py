@@ -10,8 +10,11 @@ import os
 import pathlib
 import pty
 import re
+import shutil
 import signal
 import socket
+import ssl
+import subprocess
 import sys
 import threading
 import time
@@ -52,6 +55,7 @@ class Server(harness.TestCase):
         super().setUp()
         self.process = None
         self.operator = {}
+        self.tls = None
 
     def serve(self, *args, folder="data"):
         self.process = start("serve", folder, "--port", "0", "--device", DEVICE, "--device", SLOW, "--device", BRISK,
@@ -74,7 +78,8 @@ class Server(harness.TestCase):
         if body is not None:
             headers.setdefault("Content-Type", "application/json")
             body = body if isinstance(body, (str, bytes)) else json.dumps(body)
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        connection = (http.client.HTTPSConnection("127.0.0.1", self.port, timeout=60, context=self.tls) if self.tls
+                      else http.client.HTTPConnection("127.0.0.1", self.port, timeout=60))
         try:
             connection.request(method, path, body, {**self.operator, **headers})
             response = connection.getresponse()
@@ -331,6 +336,58 @@ class Server(harness.TestCase):
         self.got("GET", "/api/v1/state", Cookie=cookie, Host=f"192.168.1.7:{self.port}")
         self.got("GET", "/api/v1/state", status=401, Cookie=cookie, Host="192.168.1.7:1")
         self.got("GET", "/api/v1/state", status=421, Cookie=cookie, Host="evil.example")
+
+    def make_certificate(self):
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                        "-subj", "/CN=rig", "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1", "-days", "2",
+                        "-keyout", "key.pem", "-out", "cert.pem"], cwd=self.dir, check=True, capture_output=True)
+        (self.dir / "key.pem").chmod(0o600)
+
+    def test_with_a_certificate_it_is_reached_by_https_alone(self):
+        if not shutil.which("openssl"):
+            self.skipTest("there is no openssl to make a certificate with")
+        self.make_certificate()
+        pair = ("--tls-cert", "cert.pem", "--tls-key", "key.pem")
+        self.refused(USAGE, "serve", *pair[:2], says="belong together")
+        self.refused(USAGE, "serve", "--tls-cert", "key.pem", "--tls-key", "key.pem", says="no certificate")
+        (self.dir / "cert.pem").chmod(0o600)
+        self.refused(USAGE, "serve", "--tls-cert", "cert.pem", "--tls-key", "cert.pem", says="not the key")
+        self.refused(FAILED, "serve", "--tls-cert", "none.pem", "--tls-key", "key.pem", says="none.pem")
+        (self.dir / "key.pem").chmod(0o604)
+        self.refused(FAILED, "serve", *pair, says="everybody can read")
+        (self.dir / "key.pem").chmod(0o600)
+        # No token is needed to listen elsewhere.
+        self.serve("--listen", "0.0.0.0", *pair)
+        self.assertTrue(self.address.startswith("https://"), self.address)
+        self.assertEqual(self.raw(b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"), b"")
+        trusted = ssl.create_default_context(cafile=self.dir / "cert.pem")
+        self.tls = trusted
+        self.got("GET", "/api/v1/state")
+        self.got("GET", "/api/v1/state", Host="rig.lab.example")  # the certificate says who it is
+        self.got("POST", "/api/v1/operator", Origin=f"https://127.0.0.1:{self.port}")
+        self.got("POST", "/api/v1/operator", status=403, Origin=f"http://127.0.0.1:{self.port}")
+        with self.assertRaises(ssl.SSLError):
+            self.tls = ssl.create_default_context()
+            self.got("GET", "/api/v1/state")
+        self.tls = trusted
+        # Peers that agree on nothing keep nobody out, and a large answer comes whole.
+        stalled = [socket.create_connection(("127.0.0.1", self.port), 10) for _ in range(60)]
+        self.addCleanup(lambda: [peer.close() for peer in stalled])
+        begun = time.monotonic()
+        page = self.got("GET", "/")
+        self.assertLess(time.monotonic() - begun, 5.0)
+        if has_page():
+            self.assertIn(b"</html>", page[-20:])
+        elsewhere = f"https://127.0.0.1:{self.port}"
+        self.refused(FAILED, "devices", "--server", elsewhere, says="does not answer")
+        self.assertIn(DEVICE, self.ok("devices", "--server", elsewhere, env={"SSL_CERT_FILE": "cert.pem"}).stdout)
+        # Who has left is noticed, so that watchers do not pile up.
+        for _ in range(20):
+            with trusted.wrap_socket(socket.create_connection(("127.0.0.1", self.port), 10),
+                                     server_hostname="localhost") as peer:
+                peer.sendall(b"GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n\r\n")
+                self.assertIn(b"200 OK", peer.recv(4096))
+            time.sleep(0.2)
 
     def test_a_terminal_shows_the_address_as_a_qr_code(self):
         terminal, end = pty.openpty()
@@ -657,7 +714,6 @@ class Server(harness.TestCase):
 
 
 def has_page():
-    import shutil
     folders = pathlib.Path(shutil.which(harness.BIN) or harness.BIN).resolve().parents
     return any((f / "share/turnscan/page/serve.html").exists() for f in list(folders)[:4])
 

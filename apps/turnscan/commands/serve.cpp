@@ -35,10 +35,14 @@ class ServeCommand : public Command {
                              "./turnscan-scans");
     line.option("--listen", "ADDRESS", listen_,
                 "Address to listen at, e.g. 0.0.0.0 for the whole network. Others than this "
-                "machine's own (127.0.0.1, the default) need --token");
+                "machine's own (127.0.0.1, the default) need --token or --tls-cert");
     line.option("--token", "FILE|auto", token_,
                 "What a request has to bring: the first line of a file that nobody else may read, "
                 "or auto: a new one, which is printed with the address");
+    line.option("--tls-cert", "FILE.pem", tls_certificate_,
+                "Serve by HTTPS, with this certificate and those that vouch for it");
+    line.option("--tls-key", "FILE.pem", tls_key_,
+                "The key of --tls-cert, without a password, which nobody else may read");
     line.flag("--openapi", print_openapi_, "Print the description of the interface, and end");
     line.repeatable("--device", "URI", request_.setup.devices,
                     "Sensor to offer besides those that are found, e.g. "
@@ -48,12 +52,15 @@ class ServeCommand : public Command {
     line.group("limits", "End of the recording", turnscan::describe(request_.setup.options.limits));
     line.group("mesh-file", "Mesh file", turnscan::describe(request_.mesh_options));
     declare_stages(line, request_.reconstruct);
-    line.common({"port", "listen", "token", "device", "motor", "turntable", "speed", "turns",
-                 "voxel-size", "texture", "openapi"});
+    line.common({"port", "listen", "token", "tls-cert", "tls-key", "device", "motor", "turntable",
+                 "speed", "turns", "voxel-size", "texture", "openapi"});
   }
 
   FileRoles files() const override {
-    return {with_replayed(request_.setup.devices, request_.setup.turntable_file), {}};
+    std::vector<std::string> inputs =
+        with_replayed(request_.setup.devices, request_.setup.turntable_file);
+    inputs.insert(inputs.end(), {tls_certificate_, tls_key_});
+    return {inputs, {}};
   }
 
   Result<> run(Session& session) override {
@@ -66,13 +73,17 @@ class ServeCommand : public Command {
                   "--until-stopped: nobody is at the terminal to stop a scan; use --turns, "
                   "--seconds or --frames");
     TURNSCAN_ASSIGN(serve::Access access, find_access());
+    std::optional<serve::TlsContext> tls;
+    if (access.tls) {
+      TURNSCAN_ASSIGN(tls, serve::TlsContext::open(tls_certificate_, tls_key_));
+    }
     TURNSCAN_ASSIGN(serve::ScanStore store, serve::ScanStore::open(folder_, session.context()));
     request_.wait = !no_wait_;
     const std::string folder = store.root().string();
     serve::Rig rig(std::move(store), request_, access);
     serve::HttpServer server(
         [&](const auto& request, auto& response) { return rig.admit(request, response); },
-        [&](const auto& request, auto& response) { rig.answer(request, response); });
+        [&](const auto& request, auto& response) { rig.answer(request, response); }, tls);
     TURNSCAN_ASSIGN(const int port, server.bind(listen_, port_));
     std::thread serving([&] { server.run(); });
     say_where(folder, access, port);
@@ -89,12 +100,16 @@ class ServeCommand : public Command {
   Result<serve::Access> find_access() const {
     serve::Access access;
     access.loopback = serve::Access::is_loopback(listen_);
+    access.tls = !tls_certificate_.empty();
+    if (access.tls == tls_key_.empty())
+      return fail(ErrorCode::kInvalidOption,
+                  "--tls-cert and --tls-key belong together; give both, or neither");
     if (token_ == "auto") {
       access.token = serve::random_key();
     } else if (!token_.empty()) {
       TURNSCAN_ASSIGN(access.token, serve::Access::read_token(token_));
     }
-    if (!access.loopback && access.token.empty())
+    if (!access.loopback && access.token.empty() && !access.tls)
       return fail(ErrorCode::kInvalidOption,
                   "--listen {}: everybody in that network could turn the table; give --token auto, "
                   "or --token FILE",
@@ -113,13 +128,13 @@ class ServeCommand : public Command {
     if (host.empty()) host = "localhost";
     const std::string page = token_ == "auto" ? fmt::format(":{}/?token={}", port, access.token)
                                               : fmt::format(":{}/", port);
-    std::string text =
-        fmt::format("Scans are in {}\nOpen http://{}{}\n", folder, bracketed(host), page);
+    std::string text = fmt::format("Scans are in {}\nOpen {}{}{}\n", folder, access.scheme(),
+                                   bracketed(host), page);
     // Phones often do not find a machine by its name.
     const std::string address =
         listen_ == "0.0.0.0" || listen_ == "::" ? serve::network_address() : listen_;
     if (!access.loopback && isatty(STDOUT_FILENO) == 1 && !address.empty())
-      text += serve::qr_code(fmt::format("http://{}{}", bracketed(address), page));
+      text += serve::qr_code(fmt::format("{}{}{}", access.scheme(), bracketed(address), page));
     text += "Ctrl-C ends the server\n";
     std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
@@ -127,7 +142,7 @@ class ServeCommand : public Command {
 
   std::string folder_ = "turnscan-scans";
   std::string listen_ = kLoopback;
-  std::string token_;
+  std::string token_, tls_certificate_, tls_key_;
   int port_ = 8470;
   bool print_openapi_ = false, no_wait_ = false;
   ScanRequest request_;

@@ -40,7 +40,8 @@ bool is_address(const std::string& host) {
 
 /// A name that only we could have let point here; to an address nothing can be made to point.
 bool is_own_host(const Access& access, const std::string& host) {
-  if (Access::is_loopback(host)) return true;
+  // With TLS whoever asks has compared the name with the certificate.
+  if (access.tls || Access::is_loopback(host)) return true;
   if (access.loopback) return false;
   static const std::string name = host_of(process::host_name() + ":");
   return is_address(host) || (!name.empty() && (host == name || host == name + ".local"));
@@ -79,11 +80,16 @@ bool Access::is_loopback(const std::string& address) {
   return address == "localhost" || address == "::1";
 }
 
-Result<std::string> Access::read_token(const std::string& file) {
+Result<> Access::check_secret(const std::string& file, const char* kind) {
   struct stat status {};
   if (stat(file.c_str(), &status) == 0 && (status.st_mode & S_IRWXO) != 0)
     return fail_at(file, ErrorCode::kNoPermission,
-                   "everybody can read this token; take that right away (chmod o-rwx)");
+                   "everybody can read this {}; take that right away (chmod o-rwx)", kind);
+  return {};
+}
+
+Result<std::string> Access::read_token(const std::string& file) {
+  TURNSCAN_TRY(check_secret(file, "token"));
   TURNSCAN_ASSIGN(std::string token, read_file(file, kMaxRequestBytes));
   token = token.substr(0, token.find_first_of("\r\n"));
   if (token.size() < kMinToken || token.find_first_not_of(kTokenCharacters) != std::string::npos)
@@ -103,7 +109,7 @@ std::optional<Refusal> refusal(const Access& access, const httplib::Request& req
   // A link on another page may lead here, but no other page may ask.
   const bool visit =
       request.path == "/" && request.get_header_value("Sec-Fetch-Mode") == "navigate";
-  if ((!origin.empty() && origin != "http://" + host) ||
+  if ((!origin.empty() && origin != access.scheme() + host) ||
       (!visit && (site == "cross-site" || site == "same-site")))
     return Refusal{403, "origin", "pages of other sites may not ask; open the page of this server"};
   if (!access.token.empty() && !has_token(access, request))

@@ -13,13 +13,17 @@ namespace turnscan::serve {
 
 struct Access {
   bool loopback = true;  ///< nothing else is listened to
-  std::string token;     ///< empty: not asked for
+  bool tls = false;
+  std::string token;  ///< empty: not asked for
 
   /// Whether an address is one of this machine alone.
   static bool is_loopback(const std::string& address);
   /// The first line of a file that nobody else may read. Fails with kNotFound, kNoPermission and
   /// kInvalidOption (shorter than 16 characters, or others than letters, digits, - and _).
   static Result<std::string> read_token(const std::string& file);
+  /// Fails with kNoPermission if everybody can read a file of that kind ("token", "key").
+  static Result<> check_secret(const std::string& file, const char* kind);
+  const char* scheme() const { return tls ? "https://" : "http://"; }
 };
 
 struct Refusal {

@@ -2,7 +2,6 @@
 
 #include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -25,31 +24,19 @@ constexpr std::chrono::milliseconds kVanished{15'000};  // a peer that acknowled
 thread_local socket_t served = INVALID_SOCKET;
 thread_local bool refused = false;
 
-bool ready(socket_t socket, short what, Clock::time_point deadline) {
-  const auto left =
-      std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-  pollfd wait{socket, what, 0};
-  return left > 0 && poll(&wait, 1, static_cast<int>(left)) == 1;
-}
-
 /// A connection from which one request of bounded size is read in bounded time.
 class PeerStream : public httplib::Stream {
  public:
-  explicit PeerStream(socket_t socket) : socket_(socket) {}
+  PeerStream(socket_t socket, Connection& connection) : socket_(socket), connection_(connection) {}
 
-  bool is_readable() const override { return used_ < filled_ || ready(socket_, POLLIN, deadline_); }
-  /// Not if the peer has closed its side.
-  bool is_writable() const override {
-    char next = 0;
-    return recv(socket_, &next, 1, MSG_PEEK | MSG_DONTWAIT) != 0 &&
-           ready(socket_, POLLOUT, Clock::now() + kStallTime);
-  }
+  bool is_readable() const override { return used_ < filled_ || connection_.readable(deadline_); }
+  bool is_writable() const override { return connection_.writable(Clock::now() + kStallTime); }
 
   ssize_t read(char* bytes, size_t size) override {
     if (used_ == filled_) {
       const std::size_t most = std::min(buffer_.size(), budget_);
-      if (most == 0 || !ready(socket_, POLLIN, deadline_)) return -1;
-      const ssize_t got = recv(socket_, buffer_.data(), most, 0);
+      if (most == 0) return -1;
+      const ssize_t got = connection_.read(buffer_.data(), most, deadline_);
       if (got <= 0) return got;
       budget_ -= std::size_t(got);
       used_ = 0;
@@ -62,8 +49,7 @@ class PeerStream : public httplib::Stream {
   }
 
   ssize_t write(const char* bytes, size_t size) override {
-    if (!is_writable()) return -1;
-    return send(socket_, bytes, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+    return connection_.write(bytes, size, Clock::now() + kStallTime);
   }
 
   // Nobody asks who it is: rights come from the token and the operator's key alone.
@@ -73,20 +59,12 @@ class PeerStream : public httplib::Stream {
 
  private:
   socket_t socket_;
+  Connection& connection_;
   Clock::time_point deadline_ = Clock::now() + kRequestTime;
   std::size_t budget_ = kMaxRequestBytes;
   std::array<char, 4096> buffer_{};
   std::size_t used_ = 0, filled_ = 0;
 };
-
-/// Takes what still comes for a moment: closing with unread bytes would cost the peer the response.
-void drain(socket_t socket) {
-  shutdown(socket, SHUT_WR);
-  std::array<char, 4096> rest{};
-  const auto deadline = Clock::now() + kLinger;
-  while (ready(socket, POLLIN, deadline) && recv(socket, rest.data(), rest.size(), 0) > 0) {
-  }
-}
 
 }  // namespace
 
@@ -113,7 +91,8 @@ class HttpServer::Queue : public httplib::TaskQueue {
   httplib::ThreadPool pool_;
 };
 
-HttpServer::HttpServer(Admission admit, Handler answer) : admit_(std::move(admit)) {
+HttpServer::HttpServer(Admission admit, Handler answer, std::optional<TlsContext> tls)
+    : admit_(std::move(admit)), tls_(std::move(tls)) {
   new_task_queue = [this] { return new Queue(*this); };
   set_payload_max_length(kMaxRequestBytes);
   // Two servers must not share a port.
@@ -201,7 +180,16 @@ bool HttpServer::process_and_close_socket(socket_t socket) {
   served = socket;
   const int vanished_ms = int(kVanished.count());
   setsockopt(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, &vanished_ms, sizeof vanished_ms);
-  PeerStream stream(socket);
+  const bool done = serve_peer(socket);
+  served = INVALID_SOCKET;
+  finish(socket);
+  return done;
+}
+
+bool HttpServer::serve_peer(socket_t socket) {
+  Connection connection(socket, tls_ ? &*tls_ : nullptr);
+  if (!connection.accept(Clock::now() + kRequestTime)) return false;
+  PeerStream stream(socket, connection);
   bool closed = false;
   // Packing would cost seconds of a small processor, and parts of files are not asked for.
   const auto simplify = [](httplib::Request& request) {
@@ -219,10 +207,8 @@ bool HttpServer::process_and_close_socket(socket_t socket) {
     else
       return self.process_request(stream, "", 0, "", 0, true, closed, simplify);
   }(*this);
-  served = INVALID_SOCKET;
   set_evictable(socket, true);
-  if (done) drain(socket);
-  finish(socket);
+  if (done) connection.finish(kLinger);
   return done;
 }
 

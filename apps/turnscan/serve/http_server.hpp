@@ -8,8 +8,11 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <turnscan/core/result.hpp>
+
+#include "serve/connection.hpp"
 
 namespace turnscan::serve {
 
@@ -30,7 +33,8 @@ class HttpServer : private httplib::Server {
   /// Called before a body is read. False: the response says why the request is refused.
   using Admission = std::function<bool(const httplib::Request&, httplib::Response&)>;
 
-  HttpServer(Admission admit, Handler answer);
+  /// tls: nullopt for HTTP without it.
+  HttpServer(Admission admit, Handler answer, std::optional<TlsContext> tls = {});
 
   /// port 0: any that is free. Returns the port. Fails with kIo.
   Result<int> bind(const std::string& address, int port);
@@ -41,19 +45,21 @@ class HttpServer : private httplib::Server {
 
  private:
   class Queue;
-  struct Connection {
+  struct Accepted {
     std::chrono::steady_clock::time_point since;
     bool evictable = true, evicted = false;
   };
 
   bool process_and_close_socket(socket_t socket) override;
+  bool serve_peer(socket_t socket);
   bool make_room();
   void set_evictable(socket_t socket, bool evictable);
   void finish(socket_t socket);
 
   Admission admit_;
+  std::optional<TlsContext> tls_;
   std::mutex mutex_;
-  std::map<socket_t, Connection> connections_;
+  std::map<socket_t, Accepted> connections_;
   std::size_t accepted_ = 0;  // and not closed
 };
 

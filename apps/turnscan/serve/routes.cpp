@@ -185,8 +185,9 @@ void Rig::answer(const httplib::Request& request, httplib::Response& response) {
 
 void Rig::show_page(const httplib::Request& request, httplib::Response& response) const {
   if (request.has_param("token")) {  // which must not stay in the address
-    response.set_header("Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Lax; Path=/",
-                                                  token_cookie(request), access_.token));
+    response.set_header(
+        "Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Lax; Path=/{}", token_cookie(request),
+                                  access_.token, access_.tls ? "; Secure" : ""));
     response.set_redirect("/", 303);
     return;
   }
