@@ -1,3 +1,4 @@
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -73,6 +74,9 @@ class ServeCommand : public Command {
                   "--until-stopped: nobody is at the terminal to stop a scan; use --turns, "
                   "--seconds or --frames");
     TURNSCAN_ASSIGN(serve::Access access, find_access());
+    // Each heap keeps the most that a job has needed of it, and without this there are eight of
+    // them for each processor.
+    mallopt(M_ARENA_MAX, int(std::thread::hardware_concurrency()));
     std::optional<serve::TlsContext> tls;
     if (access.tls) {
       TURNSCAN_ASSIGN(tls, serve::TlsContext::open(tls_certificate_, tls_key_));

@@ -1,5 +1,7 @@
 #include "serve/jobs.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -157,6 +159,8 @@ void Jobs::finish(const Result<Made>& made) {
     }
   }
   store_.remove_if_empty(id);
+  // The heaps keep what the job has freed.
+  malloc_trim(0);
   const std::lock_guard lock(mutex_);
   changed();
 }
