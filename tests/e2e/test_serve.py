@@ -485,6 +485,19 @@ class Server(harness.TestCase):
             self.assertIsNone(self.process.poll(), f"it ended after {text[:60]}")
         self.assertIsNone(self.got("GET", "/api/v1/state")["job"])
 
+    def test_the_command_of_the_unit_starts_it(self):
+        unit = (harness.ROOT / "apps/turnscan/serve/turnscan.service").read_text()
+        words = re.search("^ExecStart=turnscan (.+)$", unit, re.M)[1]
+        (self.dir / "turnscan").mkdir()
+        for options in ("", "--listen 0.0.0.0 --token auto --port 0"):
+            words_now = words.replace("%S", str(self.dir)).replace("$TURNSCAN_OPTIONS", options).split()
+            process = start(*words_now, *([] if options else ["--port", "0"]), cwd=self.dir)
+            self.addCleanup(self.kill, process)
+            self.assertEqual(process.stdout.readline(), f"Scans are in {self.dir}/turnscan/scans\n")
+            self.assertIn("http://", process.stdout.readline())
+            process.send_signal(signal.SIGTERM)
+            self.assertEqual(process.wait(timeout=10), 0)
+
     def test_a_second_server_does_not_take_the_port(self):
         self.serve()
         second = start("serve", "other", "--port", str(self.port), cwd=self.dir)
