@@ -5,6 +5,7 @@ TURNSCAN_SCREENSHOTS=FOLDER keeps what the browser shows.
 
 import gzip
 import http.client
+import http.server
 import json
 import os
 import pathlib
@@ -278,6 +279,57 @@ class Server(harness.TestCase):
         self.assert_one_line_error(error)
         self.assertEqual(self.ended()["state"], "cancelled")
         self.assertFalse((self.dir / "slow.ply").exists())
+
+    def test_a_rig_that_is_none_writes_nowhere_else(self):
+        job = {"id": "s", "state": "done", "text": "made\n", "notes": [], "error": None, "code": None}
+        sound = {"POST operator": {"key": "k"}, "POST scans": {"id": "s"}, "GET state": {"job": job},
+                 "GET scans/s": {"files": [{"name": "mesh.ply"}]},
+                 "GET scans/s/recording": {"files": [{"name": "frames.csv"}]}}
+        answers = {}
+
+        class Fake(http.server.BaseHTTPRequestHandler):
+            def answer(self):
+                answer = answers.get(f"{self.command} {self.path.removeprefix('/api/v1/')}", "content")
+                content = answer if isinstance(answer, bytes) else json.dumps(answer).encode()
+                self.send_response(200)
+                self.send_header("Content-Length", str(len(content)))
+                self.end_headers()
+                self.wfile.write(content)
+            do_GET = do_POST = do_DELETE = answer
+
+            def log_message(self, *_):
+                pass
+
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Fake)
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        work = self.dir / "work" / "here"
+        work.mkdir(parents=True)
+
+        def scan(**changed):
+            answers.clear()
+            answers.update(sound, **{k.replace("_", " ", 1): v for k, v in changed.items()})
+            return run("scan", "--server", f"http://127.0.0.1:{server.server_port}", "--device", "x", "--quiet", "-o", "m.ply",
+                       "--recording", "r", cwd=work)
+        self.assertEqual(scan().returncode, 0)
+        self.assertEqual(self.files(), ["work", "work/here", "work/here/m.ply", "work/here/r", "work/here/r/frames.csv"])
+        harness.remove(work / "r")
+        (work / "m.ply").unlink()
+        nonsense = (b"", b"[]", b"null", b"{", b"[" * 100000, {"job": None}, {"job": 1}, {"job": {**job, "notes": [1]}},
+                    {"job": {**job, "state": 7}}, {"job": {**job, "error": "x"}}, {"key": 1}, {"files": [{}]})
+        for place in ("POST operator", "POST scans", "GET state", "GET scans/s", "GET scans/s/recording"):
+            for content in nonsense:
+                result = scan(**{place.replace(" ", "_", 1): content})
+                self.assertEqual(result.returncode, FAILED, (place, content))
+                self.assert_one_line_error(result.stderr)
+        for name in ("../x", "a/../../x", "/x", "..", "a/b/c", "a/..", ".hidden", "", "a\0b", "a\nb"):
+            self.assertEqual(scan(**{"GET_scans/s/recording": {"files": [{"name": name}]}}).returncode, FAILED, name)
+        for name in ("mesh/../../x.ply", "../mesh.ply", "meshx.ply", "mesh-/x.ply"):
+            self.assertEqual(scan(**{"GET_scans/s": {"files": [{"name": name}]}}).returncode, FAILED, name)
+        self.assertEqual(scan(**{"POST_scans": {"id": "../x"}}).returncode, FAILED)
+        (work / "m.ply").unlink(missing_ok=True)
+        self.assertEqual(self.files(), ["work", "work/here"])
 
     def test_an_error_of_the_rig_is_that_of_the_command(self):
         broken = "virtual:doll?sensor=none-of-this-name"
