@@ -258,6 +258,7 @@ class Server(harness.TestCase):
         for said in ("1.0", "watertight", "Wrote mine.ply", "Wrote mine.recording"):
             self.assertIn(said, done.stdout)
         self.assertNotIn(str(self.dir), done.stdout)
+        self.assertEqual(done.stdout.count("recording\n"), 1)  # not where it is on the rig
         self.assertIn("objects", json.loads((self.dir / "mine.json").read_text())["reconstruction"])
         self.ok("info", "mine.recording")
         self.ok("reconstruct", "mine.recording", "--out", "own.ply", *OPTIONS[:2])

@@ -53,8 +53,8 @@ class ServeCommand : public Command {
     line.group("limits", "End of the recording", turnscan::describe(request_.setup.options.limits));
     line.group("mesh-file", "Mesh file", turnscan::describe(request_.mesh_options));
     declare_stages(line, request_.reconstruct);
-    line.common({"port", "listen", "token", "tls-cert", "tls-key", "device", "motor", "turntable",
-                 "speed", "turns", "voxel-size", "texture", "openapi"});
+    line.common({"port", "listen", "token", "tls-cert", "device", "motor", "turntable", "speed",
+                 "turns", "voxel-size", "texture", "openapi"});
   }
 
   FileRoles files() const override {

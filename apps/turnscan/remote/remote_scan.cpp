@@ -139,7 +139,7 @@ class RemoteScan {
     } catch (const Json::exception&) {
       return tl::unexpected<Error>(rig_.not_understood());
     }
-    session_.print("{}", text_);
+    session_.print("{}", with_place_of_recording(text_));
     const std::string ending = ending_of(request_.mesh);
     bool found = false;
     for (const std::string& name : names) {
@@ -160,6 +160,19 @@ class RemoteScan {
     return fetch_recording();
   }
 
+  /// The rig says where it is there.
+  std::string with_place_of_recording(std::string text) const {
+    const std::string there = id_ + "/recording";
+    const std::string here =
+        request_.recording.empty()
+            ? fmt::format("the recording of scan {}, which stays on the rig", id_)
+            : request_.recording;
+    for (auto at = text.find(there); at != std::string::npos;
+         at = text.find(there, at + here.size()))
+      text.replace(at, there.size(), here);
+    return text;
+  }
+
   Result<> fetch(const std::string& name, const std::string& to) {
     if (to.empty()) return {};
     TURNSCAN_TRY(rig_.download(fmt::format("scans/{}/files/{}", id_, name), to));
@@ -169,10 +182,7 @@ class RemoteScan {
 
   /// Under another name until it is whole.
   Result<> fetch_recording() {
-    if (request_.recording.empty()) {
-      session_.print("The recording is kept on the rig, as scan {}\n", id_);
-      return {};
-    }
+    if (request_.recording.empty()) return {};
     const fs::path part = request_.recording + ".part";
     std::error_code error;
     if (!fs::create_directory(part, error))
@@ -188,7 +198,6 @@ class RemoteScan {
     }
     std::error_code ignored;
     fs::remove_all(part, ignored);
-    if (fetched) session_.print("Wrote {}\n", request_.recording);
     return fetched;
   }
 
