@@ -725,6 +725,10 @@ class Server(harness.TestCase):
             page.evaluate(press)
             page.wait(f"{title} === 'Recording'", harness.HANG_S)
             page.wait("!document.getElementById('live').hidden")
+            # What the page shows with each title that follows, however briefly.
+            page.evaluate("steps = []; new MutationObserver(() => "
+                          f"steps.push([{title}, document.getElementById('surface').hidden].join()))"
+                          ".observe(document.getElementById('title'), {childList: true})")
             frames = "+(document.getElementById('surface').dataset.frames ?? 0)"
             page.wait(f"!document.getElementById('surface').hidden && {frames} > 0")
             before = page.evaluate(frames)
@@ -736,10 +740,8 @@ class Server(harness.TestCase):
             self.keep(page, "record-1440")
             page.resize(360, 640)
             page.wait(f"{title} !== 'Recording'", harness.HANG_S)
-            # It stays while the model is computed; a slow page may see the question at once.
-            self.assertIn(page.evaluate(f"[{title}, document.getElementById('surface').hidden].join()"),
-                          ("Computing the model,false", "Turn it over?,true"))
             page.wait(f"{title} === 'Turn it over?'", harness.HANG_S)
+            self.assertIn("Computing the model,false", page.evaluate("steps.join(';')"))
             self.assertTrue(page.evaluate("document.getElementById('surface').hidden"))
             page.wait("!document.getElementById('advice').hidden")
             self.keep(page, "turn-360")
