@@ -93,8 +93,8 @@ Error RemoteRig::refused(int status, const std::string& body) const {
   return status == 0 ? silent("no status") : not_understood();
 }
 
-Result<Json> RemoteRig::get(const std::string& path) {
-  std::string body;
+Result<> RemoteRig::receive(const std::string& path, const Take& take) {
+  std::string refusal;
   int status = 0;
   const auto result = client_->Get(
       kBase + path, httplib::Headers{},
@@ -103,11 +103,21 @@ Result<Json> RemoteRig::get(const std::string& path) {
         return true;
       },
       [&](const char* data, std::size_t size) {
-        body.append(data, size);
-        return body.size() <= kMaxAnswerBytes;
+        if (status == 200) return take(std::string_view(data, size));
+        refusal.append(data, size);
+        return refusal.size() <= kMaxAnswerBytes;
       });
   if (!result) return tl::unexpected<Error>(silent(httplib::to_string(result.error())));
-  if (status != 200) return tl::unexpected<Error>(refused(status, body));
+  if (status != 200) return tl::unexpected<Error>(refused(status, refusal));
+  return {};
+}
+
+Result<Json> RemoteRig::get(const std::string& path) {
+  std::string body;
+  TURNSCAN_TRY(receive(path, [&](std::string_view piece) {
+    body.append(piece);
+    return body.size() <= kMaxAnswerBytes;
+  }));
   Json answer = Json::parse(body, nullptr, false);
   if (answer.is_discarded()) return tl::unexpected<Error>(not_understood());
   return answer;
@@ -134,27 +144,14 @@ Result<Json> RemoteRig::operate(const std::string& path, const Json& body) {
 
 Result<> RemoteRig::download(const std::string& path, const std::string& file) {
   const auto body = [&](FileSink& sink) -> Result<> {
-    std::string refusal;
-    int status = 0;
     Result<> written;
-    const auto result = client_->Get(
-        kBase + path, httplib::Headers{},
-        [&](const httplib::Response& response) {
-          status = response.status;
-          return true;
-        },
-        [&](const char* data, std::size_t size) {
-          if (status == 200)
-            written = sink.write(std::string_view(data, size));
-          else
-            refusal.append(data, size);
-          return written && refusal.size() <= kMaxAnswerBytes && !context_.cancelled();
-        });
+    const auto received = receive(path, [&](std::string_view piece) {
+      written = sink.write(piece);
+      return written && !context_.cancelled();
+    });
     TURNSCAN_TRY(context_.check());
     TURNSCAN_TRY(written);
-    if (!result) return tl::unexpected<Error>(silent(httplib::to_string(result.error())));
-    if (status != 200) return tl::unexpected<Error>(refused(status, refusal));
-    return {};
+    return received;
   };
   return write_file_atomically(file, body, Durability::kNamed);
 }

@@ -1,9 +1,11 @@
 #pragma once
 // A rig elsewhere: what `turnscan serve` offers, by its interface /api/v1.
 
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <turnscan/core/result.hpp>
 #include <turnscan/core/run_context.hpp>
 
@@ -43,6 +45,9 @@ class RemoteRig {
 
  private:
   RemoteRig(std::string address, const RunContext& context);
+  /// Takes a piece of an answer; false: no more of it.
+  using Take = std::function<bool(std::string_view)>;
+  Result<> receive(const std::string& path, const Take& take);
   Result<Json> post(const std::string& path, const Json& body);
   Error refused(int status, const std::string& body) const;
   Error silent(const std::string& why) const;

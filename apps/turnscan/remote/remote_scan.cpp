@@ -131,14 +131,20 @@ class RemoteScan {
     shown_ = std::max(shown_, steps);
   }
 
-  Result<> fetch() {
-    TURNSCAN_ASSIGN(const Json scan, rig_.get("scans/" + id_));
+  /// Their names, as the rig lists them at a path.
+  Result<std::vector<std::string>> files_of(const std::string& path) {
+    TURNSCAN_ASSIGN(const Json listed, rig_.get(path));
     std::vector<std::string> names;
     try {
-      for (const Json& file : scan.at("files")) names.push_back(file.at("name"));
+      for (const Json& file : listed.at("files")) names.push_back(file.at("name"));
     } catch (const Json::exception&) {
       return tl::unexpected<Error>(rig_.not_understood());
     }
+    return names;
+  }
+
+  Result<> fetch() {
+    TURNSCAN_ASSIGN(const std::vector<std::string> names, files_of("scans/" + id_));
     session_.print("{}", with_place_of_recording(text_));
     const std::string ending = ending_of(request_.mesh);
     bool found = false;
@@ -203,13 +209,7 @@ class RemoteScan {
 
   Result<> fetch_into(const fs::path& folder) {
     const std::string base = "scans/" + id_ + "/recording";
-    TURNSCAN_ASSIGN(const Json listed, rig_.get(base));
-    std::vector<std::string> names;
-    try {
-      for (const Json& file : listed.at("files")) names.push_back(file.at("name"));
-    } catch (const Json::exception&) {
-      return tl::unexpected<Error>(rig_.not_understood());
-    }
+    TURNSCAN_ASSIGN(const std::vector<std::string> names, files_of(base));
     for (const std::string& name : names) {
       const auto slash = name.find('/');
       const std::string first = name.substr(0, slash);

@@ -79,7 +79,7 @@ TEST(Creases, EdgesThatWereCutOffBecomeStraightAndSharp) {
   for (const double noise_m : {0.0, 0.0001}) {
     TriangleMesh mesh = extracted(cube, noise_m);
     const OffEdges before = off_edges(mesh, cube);
-    straighten_creases(mesh, measured(mesh));
+    ASSERT_TRUE(straighten_creases(mesh, measured(mesh), RunContext()));
     const OffEdges after = off_edges(mesh, cube);
     EXPECT_LT(before.mean_m, -0.00001) << noise_m;
     EXPECT_LT(after.rms_m, 0.5 * before.rms_m) << noise_m;
@@ -94,7 +94,7 @@ TEST(Creases, GroovesAreNoEdges) {
   const auto wall = [](const Vec3d& p) { return -0.75 * cube(p / 0.75); };
   TriangleMesh mesh = extracted(hollow, 0.00005);
   const TriangleMesh before = mesh;
-  straighten_creases(mesh, measured(mesh));
+  ASSERT_TRUE(straighten_creases(mesh, measured(mesh), RunContext()));
   double was = 0.0, is = 0.0;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3d p = before.vertices[v].cast<double>(), q = mesh.vertices[v].cast<double>();
@@ -107,7 +107,7 @@ TEST(Creases, GroovesAreNoEdges) {
 TEST(Creases, RoundSurfaceStays) {
   const TriangleMesh ball = testing::ball_mesh();
   TriangleMesh mesh = ball;
-  straighten_creases(mesh, measured(mesh));
+  ASSERT_TRUE(straighten_creases(mesh, measured(mesh), RunContext()));
   EXPECT_EQ(largest_motion(mesh, ball), 0.0);
 
   // Rings of 6 mm: as narrow as the neighbourhoods in which creases are looked for.
@@ -116,7 +116,7 @@ TEST(Creases, RoundSurfaceStays) {
   };
   const TriangleMesh ring = extracted(torus, 0.00005);
   mesh = ring;
-  straighten_creases(mesh, measured(mesh));
+  ASSERT_TRUE(straighten_creases(mesh, measured(mesh), RunContext()));
   EXPECT_EQ(largest_motion(mesh, ring), 0.0);
 }
 
@@ -126,7 +126,7 @@ TEST(Creases, WhatWasNotMeasuredStays) {
   for (std::size_t v = 0; v < support.size(); ++v)
     if (before.vertices[v].y() < 0.0f) support[v] = 0.0f;
   TriangleMesh mesh = before;
-  straighten_creases(mesh, support);
+  ASSERT_TRUE(straighten_creases(mesh, support, RunContext()));
   std::size_t moved = 0;
   for (std::size_t v = 0; v < support.size(); ++v) {
     const bool moves = mesh.vertices[v] != before.vertices[v];
@@ -134,6 +134,17 @@ TEST(Creases, WhatWasNotMeasuredStays) {
     moved += moves ? 1 : 0;
   }
   EXPECT_GT(moved, 100u);
+}
+
+TEST(Creases, NothingMovesOnceItIsCancelled) {
+  const TriangleMesh before = extracted(cube, 0.0);
+  TriangleMesh mesh = before;
+  RunContext context;
+  context.cancel();
+  const auto result = straighten_creases(mesh, measured(mesh), context);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(largest_motion(mesh, before), 0.0);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
-#include <turnscan/core/median.hpp>
 #include <turnscan/core/parallel.hpp>
+#include <turnscan/geometry/estimation/linear_solvers.hpp>
+#include <turnscan/geometry/estimation/robust.hpp>
 #include <turnscan/geometry/mesh/mesh_repair.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_creases.hpp>
 #include <turnscan/reconstruction/mesh_refinement/mesh_fit_parts.hpp>
@@ -64,14 +64,12 @@ struct Plane {
 };
 
 float tukey(float residual, float cut) {
-  const float t = std::max(0.0f, 1.0f - residual * residual / (cut * cut));
-  return t * t;
+  return float(estimation::tukey_weight(double(residual / cut)));
 }
 
-/// Eigenvectors of a symmetric matrix, by increasing eigenvalue; without trigonometric functions,
-/// whose last bits depend on the processor.
+/// Eigenvectors of a symmetric matrix, by increasing eigenvalue.
 Eigen::Matrix3f axes_of(const Eigen::Matrix3f& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f>(symmetric).eigenvectors();
+  return estimation::symmetric_eigen<3>(symmetric.cast<double>()).vectors.cast<float>();
 }
 
 /// The plane with the least squares of distances; its normal points as those of the samples.
@@ -158,8 +156,9 @@ float quadratic_misfit(Samples samples, const Vec3f& up, float cut, float edge_m
       left += weight * row * row.transpose();
       right += weight * s.position.dot(up) * row;
     }
-    left.diagonal().array() += 1e-6f * left.trace();
-    k = left.ldlt().solve(right);
+    k = estimation::solve_ldlt(estimation::Matrix6d(left.cast<double>()),
+                               estimation::Vector6d(right.cast<double>()))
+            .cast<float>();
     best = std::min(best, misfit(samples, cut, edge_m, field));
   }
   return best;
@@ -179,7 +178,7 @@ Division divide(std::span<Sample> samples, const Crease& crease, float rounded) 
         std::min(std::abs(a.above(samples[i].position)), std::abs(b.above(samples[i].position)));
   std::vector<float> ordered = distances;
   Division out;
-  out.cut = kPlaneCut * float(1.4826 * median(ordered));
+  out.cut = kPlaneCut * float(estimation::mad_sigma(ordered));
   if (!(out.cut > 0.0f)) return out;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     Sample& sample = samples[i];
@@ -254,7 +253,7 @@ class CreaseSearch {
     edge_m_ = float(sum / double(std::max<std::size_t>(1, mesh.triangles.size())));
   }
 
-  std::vector<Vec3f> steps() const {
+  Result<std::vector<Vec3f>> steps(const RunContext& context) const {
     std::vector<float> bends(mesh_.vertices.size());
     parallel_for(bends.size(), 4096, [&](std::size_t v) {
       float cosine = 1.0f;
@@ -268,12 +267,12 @@ class CreaseSearch {
     std::vector<Vec3f> out(bends.size(), Vec3f::Zero());
     // A few parts: each has marks for all vertices.
     constexpr std::size_t kParts = 32;
-    parallel_for(kParts, 1, [&](std::size_t part) {
+    TURNSCAN_TRY(parallel_for(kParts, 1, context, [&](std::size_t part) {
       std::vector<std::uint32_t> found_by(bends.size(), kNobody);
       for (std::size_t i = part; i < bent.size(); i += kParts)
         if (const auto crease = crease_around(bent[i], found_by))
           out[bent[i]] = step_onto(*crease, bent[i]);
-    });
+    }));
     return out;
   }
 
@@ -328,8 +327,11 @@ class CreaseSearch {
 
 }  // namespace
 
-void straighten_creases(TriangleMesh& mesh, const std::vector<float>& support) {
-  take_steps(mesh, CreaseSearch(mesh, support).steps());
+Result<> straighten_creases(TriangleMesh& mesh, const std::vector<float>& support,
+                            const RunContext& context) {
+  TURNSCAN_ASSIGN(std::vector<Vec3f> steps, CreaseSearch(mesh, support).steps(context));
+  take_steps(mesh, std::move(steps));
+  return {};
 }
 
 }  // namespace turnscan::mesh_refinement

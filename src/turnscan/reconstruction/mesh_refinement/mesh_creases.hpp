@@ -1,6 +1,7 @@
 #pragma once
 // Creases of a fitted mesh: straight lines at which two planes meet.
 
+#include <turnscan/core/run_context.hpp>
 #include <turnscan/core/triangle_mesh.hpp>
 #include <vector>
 
@@ -11,9 +12,11 @@ namespace turnscan::mesh_refinement {
 /// from volume data", 2001, section 3). The planes are fitted robustly to the vertices around,
 /// those closest to the line left out: an extracted surface cuts an edge off, and the sensor and
 /// the fit round it. There is a crease where two planes explain the vertices around better than one
-/// quadratic surface, which has as many parameters, and meet at 30 degrees or more. support: of the
+/// quadratic surface, which has as many parameters, and meet at 30 to 150 degrees. support: of the
 /// fit, per vertex. Triangles are unchanged; no vertex moves by more than 0.7 of the mean edge, and
-/// no step rotates a triangle by more than 73 degrees. The mesh must be closed.
-void straighten_creases(TriangleMesh& mesh, const std::vector<float>& support);
+/// no step rotates a triangle by more than 73 degrees. The mesh must be closed. Fails with
+/// kCancelled; then nothing has moved.
+Result<> straighten_creases(TriangleMesh& mesh, const std::vector<float>& support,
+                            const RunContext& context);
 
 }  // namespace turnscan::mesh_refinement

@@ -107,7 +107,9 @@ class VolumetricReconstruction {
           return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(), context_);
         }));
       if (options_.fit)
-        timed("creases", [&] { mesh_refinement::straighten_creases(fitted.mesh, fitted.support); });
+        TURNSCAN_TRY(timed("creases", [&] {
+          return mesh_refinement::straighten_creases(fitted.mesh, fitted.support, context_);
+        }));
       // Behind thin parts a filtering sensor mixes the depths of both sides.
       TURNSCAN_TRY(timed("untangle", [&] {
         return mesh_refinement::untangle(fitted.mesh, even.vertices, {}, context_);
