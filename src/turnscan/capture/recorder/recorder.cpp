@@ -109,13 +109,14 @@ struct Recorder::State {
   std::map<std::uint64_t, Written> ready;
   std::uint64_t next_number = 0;
   Clock::time_point looked_at_disk;
+  std::uint64_t bytes_until_look = 0;  ///< half of the room there was: looked at earlier than due
 
   void run();
   bool work();
   Result<std::string> write_files(Frame& frame) const;
   void fail_with(Error error);
   Result<> append_ready();
-  Result<> look_at_disk(Clock::time_point now);
+  Result<> look_at_disk(Clock::time_point now, std::uint64_t written_bytes);
   std::uint64_t bytes_of(const FrameInfo& info) const;
 };
 
@@ -137,10 +138,12 @@ std::uint64_t Recorder::State::bytes_of(const FrameInfo& info) const {
   return sum;
 }
 
-Result<> Recorder::State::look_at_disk(Clock::time_point now) {
-  if (now - looked_at_disk < kLookAtDisk) return {};
+Result<> Recorder::State::look_at_disk(Clock::time_point now, std::uint64_t written_bytes) {
+  bytes_until_look -= std::min(bytes_until_look, written_bytes);
+  if (bytes_until_look > 0 && now - looked_at_disk < kLookAtDisk) return {};
   looked_at_disk = now;
   TURNSCAN_ASSIGN(const std::uint64_t free, free_space(folder));
+  bytes_until_look = std::uint64_t(std::max(0.0, double(free) - options.min_free_bytes) / 2);
   {
     const std::lock_guard lock(mutex);
     counts.free_bytes = free;
@@ -167,7 +170,7 @@ Result<> Recorder::State::append_ready() {
     }
     ready.erase(first);
     ++next_number;
-    TURNSCAN_TRY(look_at_disk(now));
+    TURNSCAN_TRY(look_at_disk(now, bytes));
   }
   return {};
 }
