@@ -20,6 +20,8 @@ namespace {
 constexpr double kShareOfError = 0.125;
 /// Correct detail is not finer than this, however large the error of the whole may be.
 constexpr double kShareOfVoxel = 0.25;
+/// Where the error is not known, as from points: their heights are fitted to this (point_stages).
+constexpr double kShareOfVoxelFitted = 0.05;
 constexpr double kFarthestVoxels = 0.5;
 
 struct Bound {
@@ -42,7 +44,10 @@ std::optional<double> expected_error(const ObjectResult& object) {
 Bound worth_of(const ObjectResult& object, double voxel_m) {
   const double coarsest_m = kShareOfVoxel * voxel_m, farthest_m = kFarthestVoxels * voxel_m;
   const std::optional<double> error_m = expected_error(object);
-  if (!error_m || kShareOfError * *error_m > coarsest_m)
+  if (!error_m)
+    return {0, kShareOfVoxelFitted * voxel_m, farthest_m,
+            fmt::format("to a twentieth of a voxel of {:.2g} mm", voxel_m * 1e3)};
+  if (kShareOfError * *error_m > coarsest_m)
     return {0, coarsest_m, farthest_m,
             fmt::format("to a quarter of a voxel of {:.2g} mm", voxel_m * 1e3)};
   return {
