@@ -69,5 +69,64 @@ TEST(HollowFloors, AreNotInWhatIsSolid) {
   EXPECT_EQ(columns_in(hollow_floors(volume, kFloor)), 0u);
 }
 
+/// What stands within the outer wall of a box of 18 mm radius that is open above: the height of its
+/// floor. Everything was measured, as was the platter, which lies at platter_m.
+template <class Floor>
+Volume measured_box(const Floor& floor, double platter_m) {
+  const auto distance = [&](const Vec3d& p) {
+    const double r = std::hypot(p.x(), p.z());
+    const double wall = std::max(r - kOuter_m, kOuter_m - kWall_m - r);
+    const double bottom = platter_m + (r < kOuter_m ? floor(p) : 0.0);
+    return std::clamp(std::min(wall, p.y() - bottom), -0.004, 0.004);
+  };
+  Volume volume = testing::volume_on_platter(5, distance, [](const Vec3d&) { return true; });
+  std::fill(volume.weight.begin(), volume.weight.end(), 1.0f);
+  return volume;
+}
+
+Volume measured_box(double floor_m, double platter_m) {
+  return measured_box([=](const Vec3d&) { return floor_m; }, platter_m);
+}
+
+std::size_t floor_columns(const Volume& volume) {
+  return columns_in(measured_floors(volume, kFloor));
+}
+
+TEST(MeasuredFloors, AreWhereTheSurfaceInABoxLiesHigherThanThePlatterBesideIt) {
+  constexpr double kInner = 3.14 * 14.0 * 14.0;
+  for (const double floor_m : {0.0005, 0.002})
+    for (const double platter_m : {0.0, 0.0008})
+      EXPECT_NEAR(double(floor_columns(measured_box(floor_m, platter_m))), kInner, 30.0);
+}
+
+TEST(MeasuredFloors, AreNotInARingWhereverThePlatterWasMeasured) {
+  for (const double platter_m : {0.0, 0.0015, 0.003})
+    EXPECT_EQ(floor_columns(measured_box(0.0, platter_m)), 0u);
+}
+
+TEST(MeasuredFloors, AreNotInARingWithALedge) {
+  const auto ledge = [](const Vec3d& p) { return std::hypot(p.x(), p.z()) < 0.008 ? 0.0 : 0.002; };
+  EXPECT_EQ(floor_columns(measured_box(ledge, 0.0)), 0u);
+}
+
+TEST(MeasuredFloors, AreNotWhereABoreOnlyLooksShallow) {
+  const auto bore = [](const Vec3d& p) { return 0.001 + 0.2 * std::hypot(p.x(), p.z()); };
+  EXPECT_EQ(floor_columns(measured_box(bore, 0.0)), 0u);
+}
+
+TEST(MeasuredFloors, StayWhenHolesAreClosedAndStandOnThePlatter) {
+  Volume volume = measured_box(0.002, 0.0);
+  VolumeScale scale;
+  scale.cell_m = volume.cell_m;
+  scale.truncation_m = volume.truncation_m;
+  scale.floor_m = 0.004;
+  ASSERT_TRUE(close_holes(volume, scale, TaperedFoot(), RunContext()));
+  const VolumeSamples samples(volume);
+  EXPECT_GT(samples.value(24, 0, 24), 0.0f);  // at -0.5 mm
+  EXPECT_LT(samples.value(24, 2, 24), 0.0f);  // at 1.5 mm
+  EXPECT_GT(samples.value(24, 3, 24), 0.0f);  // at 2.5 mm
+  EXPECT_GT(samples.value(24, 20, 24), 0.0f);
+}
+
 }  // namespace
 }  // namespace turnscan::tsdf

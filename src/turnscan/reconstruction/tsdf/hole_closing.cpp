@@ -34,8 +34,11 @@ class HoleClosing {
 
   Result<> run() {
     if (scale_.floor_m) {
+      measured_ = measured_floors(v_, floor_row());
       forget_below_floor();
-      decide_below_platter(hollow_floors(v_, floor_row()));
+      std::vector<std::uint8_t> floors = hollow_floors(v_, floor_row());
+      for (std::size_t c = 0; c < floors.size(); ++c) floors[c] |= measured_[c];
+      decide_below_platter(floors);
     }
     TURNSCAN_ASSIGN(const HarmonicFill fill, HarmonicFill::solve(v_, scale_, context_));
     adopt(fill);
@@ -51,7 +54,11 @@ class HoleClosing {
  private:
   int floor_row() const { return floor_layer(v_, *scale_.floor_m); }
 
-  /// Measurements there may be of the platter.
+  bool measured_floor(int i, int k) const {
+    return measured_[std::size_t(i) + std::size_t(samples_.size()[0]) * std::size_t(k)] != 0;
+  }
+
+  /// Measurements there may be of the platter, except where they lie higher.
   void forget_below_floor() {
     const int floor = floor_row();
     for (std::size_t b = 0; b < v_.brick_count(); ++b) {
@@ -62,8 +69,11 @@ class HoleClosing {
         continue;
       }
       for (int j = 0; j < kBrickSide && first + j < floor; ++j) {
-        for (int c = 0; c < 64; ++c)
-          v_.weight[v_.first_sample(b) + sample_in_brick(c & 7, j, c >> 3)] = 0.0f;
+        for (int c = 0; c < 64; ++c) {
+          const GridCoords at = v_.bricks.coords(b);
+          if (!measured_floor(at[0] * kBrickSide + (c & 7), at[2] * kBrickSide + (c >> 3)))
+            v_.weight[v_.first_sample(b) + sample_in_brick(c & 7, j, c >> 3)] = 0.0f;
+        }
       }
     }
   }
@@ -332,7 +342,8 @@ class HoleClosing {
     }
   }
 
-  /// Walls continue straight down from the floor, except at round bottoms, and end at y = 0.
+  /// Walls continue straight down from the floor, except at round bottoms and above floors that
+  /// were measured, and end at y = 0.
   void extend_walls_to_platter() {
     const int floor = floor_row();
     const auto& size = samples_.size();
@@ -347,7 +358,8 @@ class HoleClosing {
           if (s < 0) continue;
           const float under = -float(v_.position(i, j, k).y());
           float& own = v_.value[std::size_t(s)];
-          own = std::max(j < floor && !round_.column(i, k) ? wall : own, under);
+          const bool ends = j < floor && !round_.column(i, k) && !measured_floor(i, k);
+          own = std::max(ends ? wall : own, under);
         }
       }
     }
@@ -379,6 +391,7 @@ class HoleClosing {
   const TaperedFoot& round_;
   const RunContext& context_;
   VolumeSamples samples_;
+  std::vector<std::uint8_t> measured_;     // per column: a floor that was measured
   std::vector<std::uint8_t> has_unknown_;  // per brick with samples
   std::vector<std::size_t> guessed_;       // unobserved bricks without samples
 };

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <turnscan/geometry/search/knn.hpp>
 #include <turnscan/reconstruction/tsdf/platter_columns.hpp>
 #include <turnscan/reconstruction/tsdf/volume_samples.hpp>
@@ -13,6 +14,8 @@ constexpr float kAverageOver_m = 0.006f;
 constexpr float kRoundSlope = 0.25f;  ///< inwards per length downwards
 constexpr float kReach_m = 0.03f;     ///< from the observed surface
 constexpr float kMaxSlope = 4.0f;
+constexpr std::size_t kFewestHeights = 10;  ///< of which a tenth is left out at both ends
+constexpr double kFinest = 0.1;             ///< of a cell, without noise
 
 /// Points on the lowest observed surface, projected to y = 0, with their inward slope per length
 /// downwards.
@@ -71,6 +74,20 @@ class LowestSurfaceSearch {
   LowestSurface out_;
 };
 
+/// Heights between which four fifths of them lie.
+struct HeightRange {
+  double low_m = 0.0, high_m = 0.0;
+  double spread_m() const { return high_m - low_m; }
+};
+
+/// nullopt: too few.
+std::optional<HeightRange> range_of(std::vector<double> heights) {
+  if (heights.size() < kFewestHeights) return std::nullopt;
+  const auto tenth = std::ptrdiff_t(heights.size() / 10);
+  std::sort(heights.begin(), heights.end());
+  return HeightRange{heights.begin()[tenth], heights.rbegin()[tenth]};
+}
+
 enum class Known : std::uint8_t { kNothing, kFree, kInside };
 
 class HollowFloorSearch {
@@ -85,10 +102,9 @@ class HollowFloorSearch {
         through_(floors_.size(), 0),
         layer_(floors_.size()) {}
 
-  std::vector<std::uint8_t> run(int floor) {
+  std::vector<std::uint8_t> unseen(int floor) {
     for (int j = floor; j < samples_.size()[1]; ++j) {
-      for (int k = 0; k < depth_; ++k)
-        for (int i = 0; i < width_; ++i) layer_[at(i, k)] = known(i, j, k);
+      look_at(j);
       for (std::size_t c = 0; c < layer_.size(); ++c)
         through_[c] = layer_[c] == Known::kFree && (j == floor || through_[c] != 0) ? 1 : 0;
       if (j == floor) free_at_floor_ = through_;
@@ -97,7 +113,71 @@ class HollowFloorSearch {
     return std::move(floors_);
   }
 
+  std::vector<std::uint8_t> measured(int floor) {
+    look_at(floor);
+    std::vector<std::uint8_t> visited(layer_.size(), 0);
+    std::vector<double> beside;
+    std::vector<std::vector<std::size_t>> hollows;
+    for (std::size_t c = 0; c < layer_.size(); ++c) {
+      if (visited[c] || layer_[c] == Known::kInside) continue;
+      std::vector<std::size_t> region = region_of(c, visited);
+      if (reaches_border(region)) {
+        const std::vector<double> heights = heights_below(floor, region);
+        beside.insert(beside.end(), heights.begin(), heights.end());
+      } else {
+        hollows.push_back(std::move(region));
+      }
+    }
+    const std::optional<HeightRange> platter = range_of(std::move(beside));
+    if (!platter) return std::move(floors_);
+    const double flat_m = std::max(platter->spread_m(), kFinest * v_.cell_m);
+    for (const std::vector<std::size_t>& hollow : hollows) {
+      const auto range = range_of(heights_below(floor, away_from_walls(hollow)));
+      if (!range || range->low_m <= platter->high_m || range->spread_m() > flat_m) continue;
+      for (const std::size_t c : hollow) floors_[c] = 1;
+    }
+    return std::move(floors_);
+  }
+
  private:
+  void look_at(int layer) {
+    for (int k = 0; k < depth_; ++k)
+      for (int i = 0; i < width_; ++i) layer_[at(i, k)] = known(i, layer, k);
+  }
+
+  /// The columns of a region that are farther than the truncation distance from all others: nearer
+  /// to a wall the field mixes its depths with those below.
+  std::vector<std::size_t> away_from_walls(const std::vector<std::size_t>& region) const {
+    std::vector<std::uint8_t> within(layer_.size(), 0);
+    for (const std::size_t c : region) within[c] = 1;
+    const int reach = int(std::ceil(v_.truncation_m / v_.cell_m));
+    const auto far_from_others = [&](std::size_t c) {
+      const int i = int(c % std::size_t(width_)), k = int(c / std::size_t(width_));
+      for (int z = std::max(0, k - reach); z <= std::min(depth_ - 1, k + reach); ++z)
+        for (int x = std::max(0, i - reach); x <= std::min(width_ - 1, i + reach); ++x)
+          if (std::hypot(x - i, z - k) <= reach && within[at(x, z)] == 0) return false;
+      return true;
+    };
+    std::vector<std::size_t> out;
+    std::copy_if(region.begin(), region.end(), std::back_inserter(out), far_from_others);
+    return out;
+  }
+
+  /// Heights of the surface that was measured below a layer, in the columns that are free in it.
+  std::vector<double> heights_below(int layer, const std::vector<std::size_t>& region) const {
+    std::vector<double> out;
+    for (const std::size_t c : region) {
+      const int i = int(c % std::size_t(width_)), k = int(c / std::size_t(width_));
+      for (int j = layer; j > 0 && known(i, j, k) == Known::kFree; --j) {
+        if (known(i, j - 1, k) != Known::kInside) continue;
+        const float above = samples_.value(i, j, k), below = samples_.value(i, j - 1, k);
+        const double up = double(-below) / double(above - below);
+        out.push_back(v_.position(i, j - 1, k).y() + up * v_.cell_m);
+      }
+    }
+    return out;
+  }
+
   std::size_t at(int i, int k) const {
     return std::size_t(i) + std::size_t(width_) * std::size_t(k);
   }
@@ -203,7 +283,11 @@ bool TaperedFoot::contains(const Vec3f& p) const {
 }
 
 std::vector<std::uint8_t> hollow_floors(const Volume& volume, int floor) {
-  return HollowFloorSearch(volume).run(floor);
+  return HollowFloorSearch(volume).unseen(floor);
+}
+
+std::vector<std::uint8_t> measured_floors(const Volume& volume, int floor) {
+  return HollowFloorSearch(volume).measured(floor);
 }
 
 }  // namespace turnscan::tsdf

@@ -36,4 +36,12 @@ class TaperedFoot {
 /// the lowest that is used. From a volume whose holes are not closed yet.
 std::vector<std::uint8_t> hollow_floors(const Volume& volume, int floor);
 
+/// For each column: 1 where a vessel has a floor that rays measured below layer `floor`, too close
+/// to the platter for a single return to tell them apart. The column is part of a hollow of that
+/// layer, and the surface measured under that hollow, away from its walls, lies higher than the
+/// platter beside the object and is as flat: nine tenths of the one are above nine tenths of the
+/// other. (A bore that is too narrow for the sensor's pixels looks shallow, but not flat.) None
+/// where the platter was not measured. From a volume with its measurements below the floor.
+std::vector<std::uint8_t> measured_floors(const Volume& volume, int floor);
+
 }  // namespace turnscan::tsdf
