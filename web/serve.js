@@ -115,7 +115,9 @@ function step() {
   if (job && dismissed !== job.id + job.state) {
     const go = () => { dismissed = job.id + job.state; draw(); $('title').focus(); };
     if (job.state === 'done')
-      return {title: 'doneTitle', say: [text('doneText'), ...job.notes, job.error ?? ''].join(' '), buttons: [[text('another'), go, true]]};
+      return job.kind === 'record'
+        ? {title: 'recordedTitle', say: text('recordedText'), buttons: [[text('another'), go, true]]}
+        : {title: 'doneTitle', say: [text('doneText'), ...job.notes, job.error ?? ''].join(' '), buttons: [[text('another'), go, true]]};
     return {title: job.state === 'failed' ? 'failedTitle' : 'cancelledTitle',
             say: job.frames > 0 ? text('failed') : '',
             error: job.error, buttons: [[text('again'), go, true]]};

@@ -114,6 +114,11 @@ class Rig:
         body = {"device": device, **({} if passes is None else {"passes": passes})}
         return self.wait(self._operate("scans", body)["id"], ask=ask, progress=progress)
 
+    def record(self, device, *, progress=None):
+        """Records what is on the turntable and returns the scan's id; reconstruct() makes its mesh."""
+        body = {"device": device, "record_only": True}
+        return self.wait(self._operate("scans", body)["id"], progress=progress)
+
     def resume(self, scan, *, ask=None, progress=None):
         """Goes on with a recording that was not finished; without ask it is the last pass."""
         return self.wait(self._operate(_path(scan, "resume"))["id"], ask=ask, progress=progress)

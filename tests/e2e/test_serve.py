@@ -281,6 +281,29 @@ class Server(harness.TestCase):
         self.assertEqual(self.ended()["state"], "cancelled")
         self.assertFalse((self.dir / "slow.ply").exists())
 
+    def test_a_recording_on_a_rig_elsewhere_is_copied_here(self):
+        self.serve()
+        there = ("capture", "--server", self.address, "--device", DEVICE)
+        before = self.files()
+        self.refused(USAGE, *there, "-o", "mine", "--turns", "2", says="--turns: belongs to")
+        self.refused(USAGE, *there, "--resume", "mine", says="--resume: belongs to")
+        self.refused(FAILED, "capture", "--server", "http://127.0.0.1:1", "--device", DEVICE, "-o", "mine", says="not answer")
+        self.assertEqual(self.files(), before)
+        done = self.ok(*there, "-o", "mine")
+        self.assertIn("mine", done.stdout)
+        self.assertNotIn(str(self.dir), done.stdout)
+        [scan] = self.got("GET", "/api/v1/scans")["scans"]
+        self.assertEqual(scan["state"], "recorded")
+        self.assertEqual(self.got("GET", "/api/v1/state")["job"]["kind"], "record")
+        kept = self.dir / "data" / scan["id"] / "recording"
+        names = sorted(str(path.relative_to(kept)) for path in kept.rglob("*") if path.is_file())
+        self.assertGreater(len(names), 5)
+        for name in names:
+            self.assertEqual((self.dir / "mine" / name).read_bytes(), (kept / name).read_bytes(), name)
+        self.ok("info", "mine")
+        self.refused(FAILED, *there, "-o", "mine", says="mine")
+        self.refused(USAGE, *there, "--device", "virtual:none", "-o", "more", says="--device")
+
     def test_a_rig_that_is_none_writes_nowhere_else(self):
         job = {"id": "s", "state": "done", "text": "made\n", "notes": [], "error": None, "code": None}
         sound = {"POST operator": {"key": "k"}, "POST scans": {"id": "s"}, "GET state": {"job": job},

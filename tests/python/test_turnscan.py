@@ -505,6 +505,12 @@ class Rigs(unittest.TestCase):
         self.assertNotIn(scan, [each["id"] for each in self.rig.scans()])
         self.assertFalse((self.dir / "data" / scan).exists())
 
+    def test_a_recording_elsewhere_becomes_a_mesh_later(self):
+        scan = self.rig.record(self.quick)
+        self.assertEqual(self.rig.describe(scan)["state"], "recorded")
+        self.assertEqual(self.rig.reconstruct(scan), scan)
+        self.assertEqual(self.rig.describe(scan)["state"], "done")
+
     def test_each_pass_is_asked_for(self):
         asked = []
 

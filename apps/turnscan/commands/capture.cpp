@@ -1,12 +1,14 @@
 #include <turnscan/io/file/atomic_file.hpp>
 
 #include <turnscan/workflow/output_file.hpp>
+#include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/scan/capture_outcome.hpp>
 #include <turnscan/workflow/scan/capture_report.hpp>
 #include <turnscan/workflow/text/capture_text.hpp>
 #include "cli/command_line.hpp"
 #include "cli/commands.hpp"
 #include "commands/capture_arguments.hpp"
+#include "remote/remote_scan.hpp"
 
 namespace turnscan::cli {
 
@@ -24,6 +26,14 @@ class CaptureCommand : public Command {
     line.option("--resume", "RECORDING", resume_, kResumeHelp);
     line.flag("--overwrite-unfinished", overwrite_unfinished_, kOverwriteUnfinishedHelp);
     line.option("--report", "FILE.json", report_, "Write what was recorded and dropped as JSON");
+#ifdef TURNSCAN_WITH_SERVE
+    line.option(
+        "--server", "URL", server_,
+        "Record on a rig that turnscan serve offers, e.g. http://rig:8470, with the options "
+        "that it was started with, and copy the recording here. Its token is read from the "
+        "environment variable TURNSCAN_TOKEN");
+    line_ = &line;
+#endif
     declare_capture(line, setup_);
     declare_table(line, setup_);
     line.group("limits", "End of the recording", describe(setup_.options.limits));
@@ -48,7 +58,10 @@ class CaptureCommand : public Command {
     else
       TURNSCAN_TRY(check_output_folder(out_, overwrite_unfinished_));
     TURNSCAN_TRY(check_output_file(report_, ".json"));
-    session.plan({{"open device", 1.0}, {"connect motor", 1.0}, {"record", 30.0}});
+#ifdef TURNSCAN_WITH_SERVE
+    if (!server_.empty()) return run_there(session);
+#endif
+    session.plan(capture_phases());
     TURNSCAN_ASSIGN(auto source, setup_.open(session.context()));
     TURNSCAN_ASSIGN(std::optional<Motor> motor, setup_.open_motor(session.context()));
     CaptureHooks hooks;
@@ -71,6 +84,20 @@ class CaptureCommand : public Command {
   }
 
  private:
+#ifdef TURNSCAN_WITH_SERVE
+  Result<> run_there(Session& session) {
+    TURNSCAN_TRY(remote::check_given(*line_, {"device", "out", "overwrite-unfinished"}));
+    ScanRequest request;
+    request.setup.devices = setup_.devices;
+    request.recording = out_;
+    request.overwrite_unfinished = overwrite_unfinished_;
+    TURNSCAN_ASSIGN(auto rig, remote::RemoteRig::open(server_, session.context()));
+    return remote::run_remote_scan(rig, request, {}, session);
+  }
+
+  const CommandLine* line_ = nullptr;
+  std::string server_;
+#endif
   CaptureSetup setup_;
   std::string out_, resume_, report_;
   bool overwrite_unfinished_ = false;

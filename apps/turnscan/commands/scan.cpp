@@ -1,6 +1,5 @@
 #include <unistd.h>
 
-#include <algorithm>
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/page/page_output.hpp>
 #include <turnscan/workflow/progress/phase_plans.hpp>
@@ -110,14 +109,8 @@ class ScanCommand : public Command {
  private:
 #ifdef TURNSCAN_WITH_SERVE
   Result<> run_there(const ScanHooks& hooks, Session& session) {
-    static const std::vector<std::string> kHere{
-        "server",         "device", "out",   "recording", "report",
-        "advice-picture", "passes", "quiet", "threads",   "overwrite-unfinished"};
-    for (const std::string& name : line_->given())
-      if (std::find(kHere.begin(), kHere.end(), name) == kHere.end())
-        return fail(ErrorCode::kInvalidOption,
-                    "--{}: belongs to the turnscan serve that --server names; leave it out here",
-                    name);
+    TURNSCAN_TRY(remote::check_given(*line_, {"device", "out", "recording", "report",
+                                              "advice-picture", "passes", "overwrite-unfinished"}));
     TURNSCAN_ASSIGN(auto rig, remote::RemoteRig::open(server_, session.context()));
     return remote::run_remote_scan(rig, request_, hooks.another_side, session);
   }

@@ -39,7 +39,10 @@ class RemoteScan {
   Result<> run() {
     TURNSCAN_TRY(check_outputs());
     Json body{{"device", request_.setup.devices.front()}};
-    if (request_.passes || !ask_) body["passes"] = request_.passes.value_or(1);
+    if (records_only())
+      body["record_only"] = true;
+    else if (request_.passes || !ask_)
+      body["passes"] = request_.passes.value_or(1);
     TURNSCAN_ASSIGN(const Json started, rig_.operate("scans", body));
     if (!started.is_object() || !started.value("id", Json()).is_string())
       return tl::unexpected<Error>(rig_.not_understood());
@@ -54,7 +57,15 @@ class RemoteScan {
   }
 
  private:
+  bool records_only() const { return request_.mesh.empty(); }
+
   Result<> check_outputs() const {
+    if (!records_only()) TURNSCAN_TRY(check_meshes());
+    if (request_.recording.empty()) return {};
+    return check_output_folder(request_.recording, request_.overwrite_unfinished);
+  }
+
+  Result<> check_meshes() const {
     const std::string ending = ending_of(request_.mesh);
     if (std::find(std::begin(kMeshEndings), std::end(kMeshEndings), ending) ==
         std::end(kMeshEndings))
@@ -63,9 +74,7 @@ class RemoteScan {
     TURNSCAN_TRY(check_mesh_file(request_.mesh));
     TURNSCAN_TRY(check_output_file(request_.report, ".json"));
     TURNSCAN_TRY(check_output_file(request_.page, ".html"));
-    TURNSCAN_TRY(check_output_file(request_.advice_picture, ".png"));
-    if (request_.recording.empty()) return {};
-    return check_output_folder(request_.recording, request_.overwrite_unfinished);
+    return check_output_file(request_.advice_picture, ".png");
   }
 
   /// Until it has ended.
@@ -144,6 +153,13 @@ class RemoteScan {
   }
 
   Result<> fetch() {
+    if (!records_only()) TURNSCAN_TRY(fetch_meshes());
+    TURNSCAN_TRY(fetch_recording());
+    if (records_only()) session_.print("{}", with_place_of_recording(text_));
+    return {};
+  }
+
+  Result<> fetch_meshes() {
     TURNSCAN_ASSIGN(const std::vector<std::string> names, files_of("scans/" + id_));
     session_.print("{}", with_place_of_recording(text_));
     const std::string ending = ending_of(request_.mesh);
@@ -162,8 +178,7 @@ class RemoteScan {
                   rig_.address(), ending);
     TURNSCAN_TRY(fetch("report.json", request_.report));
     TURNSCAN_TRY(fetch("report.html", request_.page));
-    TURNSCAN_TRY(fetch("advice.png", request_.advice_picture));
-    return fetch_recording();
+    return fetch("advice.png", request_.advice_picture);
   }
 
   /// The rig says where it is there.
@@ -232,6 +247,16 @@ class RemoteScan {
 };
 
 }  // namespace
+
+Result<> check_given(const cli::CommandLine& line, const std::vector<std::string>& here) {
+  for (const std::string& name : line.given())
+    if (name != "server" && name != "quiet" && name != "threads" &&
+        std::find(here.begin(), here.end(), name) == here.end())
+      return fail(ErrorCode::kInvalidOption,
+                  "--{}: belongs to the turnscan serve that --server names; leave it out here",
+                  name);
+  return {};
+}
 
 Result<> run_remote_scan(RemoteRig& rig, const ScanRequest& request, const Ask& ask,
                          cli::Session& session) {

@@ -10,6 +10,8 @@
 #include <turnscan/workflow/mesh_output.hpp>
 #include <turnscan/workflow/progress/phase_plans.hpp>
 #include <turnscan/workflow/reconstruct_run.hpp>
+#include <turnscan/workflow/scan/capture_outcome.hpp>
+#include <turnscan/workflow/text/capture_text.hpp>
 #include <turnscan/workflow/text/reconstruction_text.hpp>
 
 namespace turnscan::serve {
@@ -52,16 +54,34 @@ Result<> Jobs::check_free() const {
   return {};
 }
 
+Result<std::string> Jobs::new_scan() {
+  TURNSCAN_TRY(check_free());
+  return store_.create();
+}
+
 Result<std::string> Jobs::start_scan(const std::vector<std::string>& devices,
                                      std::optional<int> passes) {
   const std::lock_guard starting(starting_);
-  TURNSCAN_TRY(check_free());
-  TURNSCAN_ASSIGN(const std::string id, store_.create());
+  TURNSCAN_ASSIGN(const std::string id, new_scan());
   TURNSCAN_ASSIGN(const fs::path folder, store_.folder(id));
   ScanRequest request = settings_;
   request.setup.devices = devices;
   request.passes = passes;
   begin_scan(id, std::move(request), folder);
+  return id;
+}
+
+Result<std::string> Jobs::start_recording(const std::vector<std::string>& devices) {
+  const std::lock_guard starting(starting_);
+  TURNSCAN_ASSIGN(const std::string id, new_scan());
+  TURNSCAN_ASSIGN(const fs::path folder, store_.folder(id));
+  CaptureSetup setup = settings_.setup;
+  setup.devices = devices;
+  setup.options.speed_rad_s = settings_.reconstruct.merge.speed_rad_s;
+  start(id, "record", capture_phases(),
+        [this, setup, recording = (folder / "recording").string()](Job& job) {
+          return record(setup, recording, job);
+        });
   return id;
 }
 
@@ -193,6 +213,32 @@ Result<Jobs::Made> Jobs::scan(ScanRequest request, Job& job) {
   outcome.notes.clear();
   outcome.files.clear();
   return Made{scan_text(outcome), std::move(notes), check_joined(outcome.run.apart)};
+}
+
+Result<Jobs::Made> Jobs::record(CaptureSetup setup, const std::string& folder, Job& job) {
+  TURNSCAN_ASSIGN(const auto source, setup.open(job.context));
+  TURNSCAN_ASSIGN(std::optional<Motor> motor, setup.open_motor(job.context));
+  CaptureHooks hooks;
+  hooks.motor = motor ? &*motor : nullptr;
+  hooks.progress = [&](const CaptureProgress& progress) {
+    take_progress(job, progress);
+    surface_.take(progress.motion);
+  };
+  hooks.frame = [this](const Frame& frame) -> Result<> {
+    take_frame(frame);
+    surface_.add(frame);
+    return {};
+  };
+  TURNSCAN_TRY(source->start());
+  surface_.begin(setup);
+  job.context.begin_phase("record", kRecordSteps);
+  const auto recorded =
+      capture(*source, folder, setup.header, setup.settings, setup.options, hooks, job.context);
+  surface_.end();
+  source->stop();
+  if (!recorded) return tl::unexpected<Error>(recorded.error());
+  TURNSCAN_TRY(capture_outcome(*recorded, folder));
+  return Made{capture_text(*recorded, folder), {}, {}};
 }
 
 Result<Jobs::Made> Jobs::reconstruct(const fs::path& folder, Job& job) {

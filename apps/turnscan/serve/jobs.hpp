@@ -38,6 +38,8 @@ class Jobs {
   /// kDeviceBusy while a job runs, and as ScanStore::create().
   Result<std::string> start_scan(const std::vector<std::string>& devices,
                                  std::optional<int> passes);
+  /// As start_scan(), but makes no mesh of what it records, which is one pass.
+  Result<std::string> start_recording(const std::vector<std::string>& devices);
   /// Goes on with a recording that was not finished, and asks after each pass. Fails with
   /// kDeviceBusy, and with kNotFound for an id without a scan.
   Result<> resume_scan(const std::string& id, const std::vector<std::string>& devices);
@@ -85,6 +87,8 @@ class Jobs {
     bool ended() const { return state != State::kRunning && state != State::kAsking; }
   };
   void begin_scan(const std::string& id, ScanRequest request, const std::filesystem::path& folder);
+  /// The id of a scan that is new on the disk.
+  Result<std::string> new_scan();
   /// What a job has made.
   struct Made {
     std::string text;
@@ -99,6 +103,7 @@ class Jobs {
   void changed();
 
   Result<Made> scan(ScanRequest request, Job& job);
+  Result<Made> record(CaptureSetup setup, const std::string& folder, Job& job);
   Result<Made> reconstruct(const std::filesystem::path& folder, Job& job);
   Result<> write_other_meshes(const ReconstructRun& run, const std::filesystem::path& folder);
   Result<bool> ask(Job& job, const std::string& advice, std::uint32_t pass);

@@ -19,7 +19,7 @@ constexpr const char* kSchemas = R"json({
                  "question", "error", "code", "text", "notes"],
     "properties": {
       "id": {"type": "string", "description": "of the scan"},
-      "kind": {"enum": ["scan", "reconstruct"]},
+      "kind": {"enum": ["scan", "record", "reconstruct"]},
       "state": {"enum": ["running", "asking", "done", "failed", "cancelled"]},
       "phase": {"type": "string"},
       "fraction": {"type": ["number", "null"], "description": "of the whole; null: not known"},
@@ -49,7 +49,9 @@ constexpr const char* kSchemas = R"json({
   "NewScan": {"type": "object", "required": ["device"], "properties": {
     "device": {"type": "string", "description": "a uri of /api/v1/devices"},
     "passes": {"type": "integer", "minimum": 1, "maximum": 100,
-      "description": "left out: the job asks after each pass"}}},
+      "description": "left out: the job asks after each pass"},
+    "record_only": {"type": "boolean",
+      "description": "records one pass and makes no mesh; excludes passes"}}},
   "Started": {"type": "object", "required": ["id"], "properties": {"id": {"type": "string"}}},
   "Answer": {"type": "object", "required": ["another_side"], "properties": {
     "another_side": {"type": "boolean"}}},

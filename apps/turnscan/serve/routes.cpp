@@ -335,8 +335,12 @@ Result<> Rig::check_device(Call& call, const Json& device) {
 }
 
 Result<Json> Rig::start_scan(Call& call) {
-  const Json device = call.body.value("device", Json()), passes = call.body.value("passes", Json());
+  const Json device = call.body.value("device", Json()), passes = call.body.value("passes", Json()),
+             record_only = call.body.value("record_only", Json(false));
   TURNSCAN_TRY(check_device(call, device));
+  if (!record_only.is_boolean() || (record_only == true && !passes.is_null()))
+    return fail(ErrorCode::kInvalidOption,
+                "record_only: has to be true, without passes, or false, or left out");
   std::optional<int> count;
   if (!passes.is_null()) {
     if (!passes.is_number_integer() || passes < 1 || passes > 100)
@@ -344,7 +348,9 @@ Result<Json> Rig::start_scan(Call& call) {
                   "passes: has to be a number from 1 to 100, or left out");
     count = passes.get<int>();
   }
-  TURNSCAN_ASSIGN(const std::string id, jobs_.start_scan({device.get<std::string>()}, count));
+  const std::vector<std::string> devices{device.get<std::string>()};
+  TURNSCAN_ASSIGN(const std::string id, record_only == true ? jobs_.start_recording(devices)
+                                                            : jobs_.start_scan(devices, count));
   return Json{{"id", id}};
 }
 

@@ -107,6 +107,10 @@ PhasePlan simulate_phases(const SimulateRequest& request) {
   return plan;
 }
 
+PhasePlan capture_phases() {
+  return {{"open device", 1.0}, {"connect motor", 1.0}, {"record", kRecordTurn}};
+}
+
 PhasePlan scan_phases(const ScanRequest& request) {
   PhasePlan plan{{"open device", 1.0}};
   if (!request.setup.motor_port.empty()) plan.push_back({"connect motor", 1.0});

@@ -25,6 +25,9 @@ PhasePlan reconstruct_phases(const std::vector<NamedSequence>& recordings,
 /// simulate().
 PhasePlan simulate_phases(const SimulateRequest& request);
 
+/// Opening devices, and a recording of them.
+PhasePlan capture_phases();
+
 /// run_scan(), up to and including its first pass if the number of passes is not known.
 PhasePlan scan_phases(const ScanRequest& request);
 
