@@ -800,6 +800,23 @@ class Server(harness.TestCase):
             page.wait("document.getElementById('result').hidden && document.getElementById('scans').hidden")
             self.assertEqual(page.complaints(), [])
 
+    def test_the_page_computes_the_model_of_what_was_only_recorded(self):
+        if not browser.find() or not has_page():
+            self.skipTest("there is no chromium, or turnscan was built without its page")
+        self.serve()
+        self.ok("capture", "--server", self.address, "--device", DEVICE, "-o", "mine")
+        with browser.Browser() as chromium:
+            page = chromium.open_address(self.address, 360, 640)
+            title = "document.getElementById('title').textContent"
+            page.wait(f"{title} === 'Recorded'")
+            compute = "[...document.querySelectorAll('#result-buttons button')].find((b) => b.textContent === 'Compute the model')"
+            page.wait(f"{compute} !== undefined")
+            self.keep(page, "recorded-360")
+            page.evaluate(f"{compute}.click()")
+            page.wait(f"{title} === 'The model is ready'", harness.HANG_S)
+            page.wait("document.getElementById('model').dataset.state === 'drawn'")
+            self.assertEqual(page.complaints(), [])
+
     def keep(self, page, name):
         if SHOTS:
             page.screenshot(pathlib.Path(SHOTS) / f"serve-{name}.png")
