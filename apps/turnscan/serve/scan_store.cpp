@@ -69,14 +69,15 @@ Json read_report(const std::string& text) {
 tl::unexpected<Error> no_file() { return fail(ErrorCode::kNotFound, "there is no such file"); }
 
 /// A name from outside is compared with those that are there.
-bool is_in(const file::Folder& folder, const std::string& name) {
-  const std::vector<std::string> names = folder.names();
-  return std::find(names.begin(), names.end(), name) != names.end();
+/// A single component: what is opened by it lies in the folder itself.
+bool is_name(const std::string& name) {
+  return !name.empty() && name != "." && name != ".." &&
+         name.find_first_of(std::string_view("/\0", 2)) == std::string::npos;
 }
 
 Result<std::shared_ptr<const ResultFile>> opened(const file::Folder& folder,
                                                  const std::string& name) {
-  if (!is_in(folder, name)) return no_file();
+  if (!is_name(name)) return no_file();
   const int descriptor =
       openat(folder.descriptor(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   struct stat status {};
@@ -247,7 +248,7 @@ Result<std::shared_ptr<const ResultFile>> ScanStore::recorded(const std::string&
   TURNSCAN_ASSIGN(const file::Folder own, scan(id));
   TURNSCAN_ASSIGN(const file::Folder root, own.subfolder(kRecording));
   if (folder.empty()) return opened(root, name);
-  if (is_in(root, folder))
+  if (is_name(folder))
     if (const auto inner = root.subfolder(folder)) return opened(*inner, name);
   return no_file();
 }
