@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <turnscan/reconstruction/outliers/view_grid.hpp>
 
 namespace turnscan::outliers {
@@ -106,11 +107,15 @@ struct ViewGrid::Search {
     }
   }
 
+  /// The larger of two moves on: no branch, which could not be predicted.
   void add(float distance) {
-    if (found == k && !(distance < squared[k - 1])) return;
-    std::size_t i = found == k ? k - 1 : found++;
-    for (; i > 0 && squared[i - 1] > distance; --i) squared[i] = squared[i - 1];
-    squared[i] = distance;
+    ++found;
+    if (!(distance < squared[k - 1])) return;
+    for (std::size_t i = 0; i < k; ++i) {
+      const float here = squared[i];
+      squared[i] = std::min(here, distance);
+      distance = std::max(here, distance);
+    }
   }
 };
 
@@ -118,19 +123,25 @@ std::size_t ViewGrid::nearest(const Vec3f& p, std::size_t k, float* squared) con
   const double x = p.x(), y = p.y(), z = p.z(), rounding = kRounding * z / per_cell_;
   const int column = columns_.cell_of(x / z, per_cell_), row = rows_.cell_of(y / z, per_cell_);
   Search search{*this, p, k, squared};
-  for (int reach = 0;; ++reach) {
+  std::fill_n(squared, k, std::numeric_limits<float>::infinity());
+  // With one point a cell, a disc with k of them does not reach farther.
+  int reach = int(std::ceil(std::sqrt(double(k) / std::numbers::pi)));
+  for (int r = row - reach; r <= row + reach; ++r) search.add(r, column - reach, column + reach);
+  for (;;) {
+    const std::size_t count = std::min(k, search.found);
+    const double outside =
+        std::min(columns_.clearance(x, z, column, reach), rows_.clearance(y, z, row, reach)) -
+        rounding;
+    if (count == std::min(k, points_.size()) && outside > 0.0 &&
+        double(squared[count - 1]) <= outside * outside)
+      return count;
+    ++reach;
     search.add(row - reach, column - reach, column + reach);
     for (int r = row - reach + 1; r < row + reach; ++r) {
       search.add(r, column - reach, column - reach);
       search.add(r, column + reach, column + reach);
     }
-    if (reach > 0) search.add(row + reach, column - reach, column + reach);
-    if (search.found < k && search.found < points_.size()) continue;
-    const double outside =
-        std::min(columns_.clearance(x, z, column, reach), rows_.clearance(y, z, row, reach)) -
-        rounding;
-    if (outside > 0.0 && double(squared[search.found - 1]) <= outside * outside)
-      return search.found;
+    search.add(row + reach, column - reach, column + reach);
   }
 }
 
