@@ -112,8 +112,8 @@ function step() {
       return {title: 'recordTitle', say: text('record', job.frames), aside: left, buttons: [cancel]};
     return {title: 'prepareTitle', say: text('prepare'), buttons: [cancel]};
   }
-  if (job && dismissed !== job.id + job.state) {
-    const go = () => { dismissed = job.id + job.state; draw(); $('title').focus(); };
+  if (job && dismissed !== job.id + job.kind + job.state) {
+    const go = () => { dismissed = job.id + job.kind + job.state; draw(); $('title').focus(); };
     if (job.state === 'done')
       return job.kind === 'record'
         ? {title: 'recordedTitle', say: text('recordedText'), buttons: [[text('another'), go, true]]}
@@ -175,7 +175,7 @@ function show(image, source, alt) {
 }
 
 // From the first frames until the mesh is there.
-const surfaceIsOf = (job) => job?.state === 'running' && job.kind === 'scan' && job.frames > 0;
+const surfaceIsOf = (job) => job?.state === 'running' && job.kind !== 'reconstruct' && job.frames > 0;
 
 function drawSurface() {
   const is = grown.number > 0 && grown.job === state.job?.id && surfaceIsOf(state.job);
@@ -258,7 +258,7 @@ async function showResult(id) {
     add(text('resume'), () => act('POST', `scans/${id}/resume`));
   }
   if (!names.includes('mesh.glb') && ['unfinished', 'recorded'].includes(scan.state))
-    add(text('reconstruct'), () => act('POST', `scans/${id}/reconstruct`));
+    add(text('reconstruct'), () => { dismissed = null; act('POST', `scans/${id}/reconstruct`); });
   if (scan.state !== 'running') add(text('delete'), () => askToDelete(id));
   await showModel(names.includes('mesh.glb') ? `${API}scans/${id}/files/mesh.glb` : '');
 }

@@ -117,7 +117,7 @@ class Rig:
     def record(self, device, *, progress=None):
         """Records what is on the turntable and returns the scan's id; reconstruct() makes its mesh."""
         body = {"device": device, "record_only": True}
-        return self.wait(self._operate("scans", body)["id"], progress=progress)
+        return self.wait(self._operate("scans", body)["id"], progress=progress, record_only=True)
 
     def resume(self, scan, *, ask=None, progress=None):
         """Goes on with a recording that was not finished; without ask it is the last pass."""
@@ -127,20 +127,21 @@ class Rig:
         """Makes meshes and report of a recording again."""
         return self.wait(self._operate(_path(scan, "reconstruct"))["id"], progress=progress)
 
-    def wait(self, scan, *, ask=None, progress=None):
+    def wait(self, scan, *, ask=None, progress=None, record_only=False):
         """Until its scan or reconstruction has ended; returns the scan's id. A scan goes on while
-        nobody waits, so that this may be called again after the network failed."""
+        nobody waits, so that this may be called again after the network failed: with record_only
+        for what record() began."""
         try:
-            return self._wait(scan, ask, progress)
+            return self._wait(scan, ask, progress, record_only)
         finally:
             self._leave()
 
-    def _wait(self, scan, ask, progress):
+    def _wait(self, scan, ask, progress, record_only):
         while True:
             job = self.state()["job"]
             if job is None or job["id"] != scan:  # of another since, or the server is a new one
                 left = self.describe(scan)["state"]
-                if left == "done":
+                if left == "done" or (record_only and left == "recorded"):
                     return scan
                 raise Error(f"{self._url}: nothing is at work on {scan}, which is {left}",
                             "missing-data")

@@ -92,7 +92,7 @@ class CaptureCommand : public Command {
     request.recording = out_;
     request.overwrite_unfinished = overwrite_unfinished_;
     TURNSCAN_ASSIGN(auto rig, remote::RemoteRig::open(server_, session.context()));
-    return remote::run_remote_scan(rig, request, {}, session);
+    return remote::run_remote_capture(rig, request, session);
   }
 
   const CommandLine* line_ = nullptr;

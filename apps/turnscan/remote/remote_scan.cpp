@@ -33,13 +33,14 @@ Error with_place(Error error, const std::string& id) {
 
 class RemoteScan {
  public:
-  RemoteScan(RemoteRig& rig, const ScanRequest& request, const Ask& ask, cli::Session& session)
-      : rig_(rig), request_(request), ask_(ask), session_(session) {}
+  RemoteScan(RemoteRig& rig, const ScanRequest& request, bool record_only, const Ask& ask,
+             cli::Session& session)
+      : rig_(rig), request_(request), record_only_(record_only), ask_(ask), session_(session) {}
 
   Result<> run() {
     TURNSCAN_TRY(check_outputs());
     Json body{{"device", request_.setup.devices.front()}};
-    if (records_only())
+    if (record_only_)
       body["record_only"] = true;
     else if (request_.passes || !ask_)
       body["passes"] = request_.passes.value_or(1);
@@ -57,13 +58,24 @@ class RemoteScan {
   }
 
  private:
-  bool records_only() const { return request_.mesh.empty(); }
-
   Result<> check_outputs() const {
-    if (!records_only()) TURNSCAN_TRY(check_meshes());
+    if (!record_only_) TURNSCAN_TRY(check_meshes());
     if (request_.recording.empty()) return {};
-    return check_output_folder(request_.recording, request_.overwrite_unfinished);
+    TURNSCAN_TRY(check_output_folder(request_.recording, request_.overwrite_unfinished));
+    std::error_code ignored;
+    if (fs::symlink_status(part(), ignored).type() != fs::file_type::not_found)
+      return fail(ErrorCode::kAlreadyExists, "{}: is in the way; remove it, or use another name",
+                  part().string());
+    return {};
   }
+
+  /// Where the recording is, without a slash at its end.
+  fs::path recording() const {
+    const fs::path path(request_.recording);
+    return path.has_filename() ? path : path.parent_path();
+  }
+  /// Its name until it is whole.
+  fs::path part() const { return recording().string() + ".part"; }
 
   Result<> check_meshes() const {
     const std::string ending = ending_of(request_.mesh);
@@ -153,9 +165,9 @@ class RemoteScan {
   }
 
   Result<> fetch() {
-    if (!records_only()) TURNSCAN_TRY(fetch_meshes());
+    if (!record_only_) TURNSCAN_TRY(fetch_meshes());
     TURNSCAN_TRY(fetch_recording());
-    if (records_only()) session_.print("{}", with_place_of_recording(text_));
+    if (record_only_) session_.print("{}", with_place_of_recording(text_));
     return {};
   }
 
@@ -201,24 +213,23 @@ class RemoteScan {
     return {};
   }
 
-  /// Under another name until it is whole.
   Result<> fetch_recording() {
     if (request_.recording.empty()) return {};
-    const fs::path part = request_.recording + ".part";
     std::error_code error;
-    if (!fs::create_directory(part, error))
+    fs::create_directories(fs::absolute(part()).parent_path(), error);
+    if (!fs::create_directory(part(), error))
       return fail(error ? ErrorCode::kIo : ErrorCode::kAlreadyExists,
-                  "{}: cannot be created; remove it, or name another --recording", part.string());
-    auto fetched = fetch_into(part);
+                  "{}: cannot be created; remove it, or use another name", part().string());
+    auto fetched = fetch_into(part());
     if (fetched) fetched = clear_output_folder(request_.recording, request_.overwrite_unfinished);
     if (fetched) {
-      fs::rename(part, request_.recording, error);
+      fs::rename(part(), recording(), error);
       if (error)
         fetched =
             fail_at(request_.recording, ErrorCode::kIo, "cannot be created ({})", error.message());
     }
     std::error_code ignored;
-    fs::remove_all(part, ignored);
+    fs::remove_all(part(), ignored);
     return fetched;
   }
 
@@ -239,6 +250,7 @@ class RemoteScan {
 
   RemoteRig& rig_;
   const ScanRequest& request_;
+  bool record_only_;
   const Ask& ask_;
   cli::Session& session_;
   std::string id_, text_;
@@ -253,17 +265,31 @@ Result<> check_given(const cli::CommandLine& line, const std::vector<std::string
     if (name != "server" && name != "quiet" && name != "threads" &&
         std::find(here.begin(), here.end(), name) == here.end())
       return fail(ErrorCode::kInvalidOption,
-                  "--{}: belongs to the turnscan serve that --server names; leave it out here",
+                  "--{}: does not go with --server, where the options of the turnscan serve there "
+                  "count; leave it out",
                   name);
   return {};
 }
 
-Result<> run_remote_scan(RemoteRig& rig, const ScanRequest& request, const Ask& ask,
-                         cli::Session& session) {
+namespace {
+
+Result<> run(RemoteRig& rig, const ScanRequest& request, bool record_only, const Ask& ask,
+             cli::Session& session) {
   if (request.setup.devices.size() != 1)
     return fail(ErrorCode::kInvalidOption,
                 "--device: a rig scans with one at a time; leave the others out");
-  return RemoteScan(rig, request, ask, session).run();
+  return RemoteScan(rig, request, record_only, ask, session).run();
+}
+
+}  // namespace
+
+Result<> run_remote_scan(RemoteRig& rig, const ScanRequest& request, const Ask& ask,
+                         cli::Session& session) {
+  return run(rig, request, false, ask, session);
+}
+
+Result<> run_remote_capture(RemoteRig& rig, const ScanRequest& request, cli::Session& session) {
+  return run(rig, request, true, {}, session);
 }
 
 }  // namespace turnscan::remote

@@ -17,10 +17,13 @@ Result<> check_given(const cli::CommandLine& line, const std::vector<std::string
 using Ask = std::function<Result<bool>(const std::string& advice, std::uint32_t pass)>;
 
 /// Scans with the first device and the rig's own options; writes what the request names: mesh,
-/// report, page, advice_picture, and the recording if it is named. Without a mesh it only records.
-/// Prints what a scan or capture here prints.
+/// report, page, advice_picture, and the recording if it is named. Prints what a scan here prints.
 /// Fails as the scan there did, as RemoteRig does, and for a request that cannot be written.
 Result<> run_remote_scan(RemoteRig& rig, const ScanRequest& request, const Ask& ask,
                          cli::Session& session);
+
+/// Records one pass, and copies it to the recording that is named. Prints what a capture here
+/// prints; fails as run_remote_scan().
+Result<> run_remote_capture(RemoteRig& rig, const ScanRequest& request, cli::Session& session);
 
 }  // namespace turnscan::remote

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kRecordSteps = 1000;  // of run_scan()'s phase "record"
+constexpr std::uint64_t kRecordSteps = 1000;  // of the phase "record"
 constexpr std::chrono::milliseconds kBetweenFrames{200};
 constexpr const char* kFirstMesh = "mesh.glb";  // what the page draws
 constexpr const char* kOtherMeshes[] = {"mesh.3mf", "mesh.stl", "mesh.ply"};

@@ -1,6 +1,6 @@
 #pragma once
-// What the rig is doing: one scan or reconstruction at a time, on a thread of its own, by the calls
-// of the workflow that the commands make. It goes on whoever looks or not.
+// What the rig is doing: one scan, recording or reconstruction at a time, on a thread of its own,
+// by the calls of the workflow that the commands make. It goes on whoever looks or not.
 
 #include <chrono>
 #include <condition_variable>

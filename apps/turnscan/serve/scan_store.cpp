@@ -68,7 +68,6 @@ Json read_report(const std::string& text) {
 
 tl::unexpected<Error> no_file() { return fail(ErrorCode::kNotFound, "there is no such file"); }
 
-/// A name from outside is compared with those that are there.
 /// A single component: what is opened by it lies in the folder itself.
 bool is_name(const std::string& name) {
   return !name.empty() && name != "." && name != ".." &&

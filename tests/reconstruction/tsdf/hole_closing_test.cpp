@@ -45,7 +45,7 @@ double cap_height(double inside) {
   }
   VolumeScale scale;
   scale.cell_m = 1.0, scale.truncation_m = 3.0;
-  EXPECT_TRUE(close_holes(volume, scale, TaperedFoot(), RunContext()));
+  EXPECT_TRUE(close_holes(volume, scale, Foot(), RunContext()));
   int i = kHalf;
   while (i + 1 < 2 * kHalf && volume.value[sample(volume, i, kHalf, kHalf)] < 0.0f) ++i;
   return volume.position(i, 0, 0).x() - 0.5;
@@ -90,7 +90,7 @@ TEST(CloseHoles, WhatNoPassSawEndsFlatOnALeaningPlatter) {
       volume.weight[volume.first_sample(b) + s] = 1.0f;
     }
   }
-  ASSERT_TRUE(close_holes(volume, scale, TaperedFoot(), RunContext()));
+  ASSERT_TRUE(close_holes(volume, scale, Foot(), RunContext()));
   for (int k = 0; k < 2 * kHalf; ++k) {
     for (int j = 0; j < 2 * kHalf; ++j) {
       for (int i = 0; i < 2 * kHalf; ++i) {
@@ -121,12 +121,12 @@ TEST(CloseHoles, StopsWhenItIsCancelled) {
   const VolumeScale scale;
   RunContext before;
   before.cancel();
-  EXPECT_EQ(close_holes(volume, scale, TaperedFoot(), before).error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(close_holes(volume, scale, Foot(), before).error().code, ErrorCode::kCancelled);
   RunContext within;  // after its phase began
   within.set_listener([&](const Progress& progress) {
     if (progress.phase == "closing") within.cancel();
   });
-  EXPECT_EQ(close_holes(volume, scale, TaperedFoot(), within).error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(close_holes(volume, scale, Foot(), within).error().code, ErrorCode::kCancelled);
 }
 
 }  // namespace

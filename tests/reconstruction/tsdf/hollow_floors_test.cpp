@@ -40,7 +40,7 @@ bool has_floor(Volume volume) {
   scale.cell_m = volume.cell_m;
   scale.truncation_m = volume.truncation_m;
   scale.floor_m = 0.004;
-  EXPECT_TRUE(close_holes(volume, scale, TaperedFoot(), RunContext()));
+  EXPECT_TRUE(close_holes(volume, scale, Foot(), RunContext()));
   const VolumeSamples samples(volume);
   for (int j = 0; j < samples.size()[1]; ++j)
     if (samples.value(24, j, 24) < 0.0f) return true;
@@ -89,7 +89,11 @@ Volume measured_box(double floor_m, double platter_m) {
 }
 
 std::size_t floor_columns(const Volume& volume) {
-  return columns_in(measured_floors(volume, kFloor));
+  const MeasuredFloors floors(volume, kFloor);
+  std::size_t count = 0;
+  for (int k = 0; k < 48; ++k)
+    for (int i = 0; i < 48; ++i) count += floors.column(i, k) ? 1 : 0;
+  return count;
 }
 
 TEST(MeasuredFloors, AreWhereTheSurfaceInABoxLiesHigherThanThePlatterBesideIt) {
@@ -120,7 +124,12 @@ TEST(MeasuredFloors, StayWhenHolesAreClosedAndStandOnThePlatter) {
   scale.cell_m = volume.cell_m;
   scale.truncation_m = volume.truncation_m;
   scale.floor_m = 0.004;
-  ASSERT_TRUE(close_holes(volume, scale, TaperedFoot(), RunContext()));
+  const Foot foot{{}, MeasuredFloors(volume, kFloor)};
+  EXPECT_TRUE(foot.floors.contains(Vec3f(0.0f, 0.002f, 0.0f)));
+  EXPECT_FALSE(foot.floors.contains(Vec3f(0.0f, 0.0f, 0.0f)));      // the base
+  EXPECT_FALSE(foot.floors.contains(Vec3f(0.016f, 0.002f, 0.0f)));  // in the wall
+  EXPECT_TRUE(MeasuredFloors(volume, 1000).none());
+  ASSERT_TRUE(close_holes(volume, scale, foot, RunContext()));
   const VolumeSamples samples(volume);
   EXPECT_GT(samples.value(24, 0, 24), 0.0f);  // at -0.5 mm
   EXPECT_LT(samples.value(24, 2, 24), 0.0f);  // at 1.5 mm

@@ -35,8 +35,8 @@ double plinth_of_ball(bool round) {
   scale.cell_m = volume.cell_m;
   scale.truncation_m = volume.truncation_m;
   scale.floor_m = 0.004;
-  const TaperedFoot bottoms = round ? TaperedFoot(volume, kFloor) : TaperedFoot();
-  EXPECT_TRUE(close_holes(volume, scale, bottoms, RunContext()));
+  const Foot foot{round ? TaperedFoot(volume, kFloor) : TaperedFoot(), {}};
+  EXPECT_TRUE(close_holes(volume, scale, foot, RunContext()));
   double out = 0.0;
   const VolumeSamples samples(volume);
   for (int k = 0; k < samples.size()[2]; ++k)

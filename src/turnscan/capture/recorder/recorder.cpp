@@ -109,7 +109,7 @@ struct Recorder::State {
   std::map<std::uint64_t, Written> ready;
   std::uint64_t next_number = 0;
   Clock::time_point looked_at_disk;
-  std::uint64_t bytes_until_look = 0;  ///< half of the room there was: looked at earlier than due
+  std::uint64_t bytes_until_look = 0;  ///< half of the room at the last one
 
   void run();
   bool work();

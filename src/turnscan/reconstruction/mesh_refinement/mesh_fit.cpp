@@ -128,7 +128,7 @@ class MeshFitter {
   void discard_platter() {
     if (!scale_.floor_height_m) return;
     for (std::size_t v = 0; v < fit_.mesh.vertices.size(); ++v) {
-      if (fit_.mesh.vertices[v].y() < 0.5f * float(*scale_.floor_height_m))
+      if (below_floor(fit_.mesh.vertices[v], scale_, 0.5f))
         measured_.support[v] = measured_.offset[v] = 0.0f;
     }
   }

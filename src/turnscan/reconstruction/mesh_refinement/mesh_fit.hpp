@@ -2,6 +2,7 @@
 // Mesh refinement: moves vertices along their normals to the surface that all depth frames together
 // indicate.
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <turnscan/core/run_context.hpp>
@@ -27,6 +28,8 @@ struct MeshFitScale {
   float edge_weight = 0.1f;
   int iterations = 3;                    ///< 0: only computes the support
   std::optional<double> floor_height_m;  ///< vertices below it move only sideways with the others
+  /// Where all the same the object was measured below that height; empty: nowhere.
+  std::function<bool(const Vec3f& vertex)> measured_below;
 };
 
 struct MeshFit {

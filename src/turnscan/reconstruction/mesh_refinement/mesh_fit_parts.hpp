@@ -36,9 +36,11 @@ struct VertexMeasurements {
   std::vector<float> offset;   ///< sum of weight times distance along the normal
 };
 
-/// Whether a vertex is below the floor, where only the platter is measured.
-inline bool below_floor(const Vec3f& vertex, const MeshFitScale& scale) {
-  return scale.floor_height_m && vertex.y() < float(*scale.floor_height_m);
+/// Whether a vertex is below the given share of the floor's height, where only the platter is
+/// measured.
+inline bool below_floor(const Vec3f& vertex, const MeshFitScale& scale, float share = 1.0f) {
+  return scale.floor_height_m && vertex.y() < share * float(*scale.floor_height_m) &&
+         !(scale.measured_below && scale.measured_below(vertex));
 }
 
 /// Independent samples of the measurements' errors, from which the fit chooses its stiffness.

@@ -114,7 +114,7 @@ OptionTable describe(FinishOptions& o) {
       .text("triangles", o.triangles,
             "Number of triangles of an object, which stays closed: at most this number; all; or "
             "auto, which removes triangles within an eighth of the expected error, at most a "
-            "quarter of a voxel, but none where vertices carry --colour",
+            "quarter of a voxel (of points: a twentieth), but none where vertices carry --colour",
             [](std::string_view text) -> Result<> {
               TURNSCAN_TRY(triangles_wanted(text));
               return {};

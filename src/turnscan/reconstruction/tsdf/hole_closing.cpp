@@ -28,17 +28,13 @@ void for_each_in_brick(const Body& body) {
 
 class HoleClosing {
  public:
-  HoleClosing(Volume& volume, const VolumeScale& scale, const TaperedFoot& round,
-              const RunContext& context)
-      : v_(volume), scale_(scale), round_(round), context_(context), samples_(volume) {}
+  HoleClosing(Volume& volume, const VolumeScale& scale, const Foot& foot, const RunContext& context)
+      : v_(volume), scale_(scale), foot_(foot), context_(context), samples_(volume) {}
 
   Result<> run() {
     if (scale_.floor_m) {
-      measured_ = measured_floors(v_, floor_row());
       forget_below_floor();
-      std::vector<std::uint8_t> floors = hollow_floors(v_, floor_row());
-      for (std::size_t c = 0; c < floors.size(); ++c) floors[c] |= measured_[c];
-      decide_below_platter(floors);
+      decide_below_platter(hollow_floors(v_, floor_row()));
     }
     TURNSCAN_ASSIGN(const HarmonicFill fill, HarmonicFill::solve(v_, scale_, context_));
     adopt(fill);
@@ -54,24 +50,29 @@ class HoleClosing {
  private:
   int floor_row() const { return floor_layer(v_, *scale_.floor_m); }
 
-  bool measured_floor(int i, int k) const {
-    return measured_[std::size_t(i) + std::size_t(samples_.size()[0]) * std::size_t(k)] != 0;
+  /// Whether a floor was measured in some of a brick's columns.
+  bool has_measured_floor(std::size_t b) const {
+    const GridCoords at = v_.bricks.coords(b);
+    for (int c = 0; c < 64 && !foot_.floors.none(); ++c)
+      if (foot_.floors.column(at[0] * kBrickSide + (c & 7), at[2] * kBrickSide + (c >> 3)))
+        return true;
+    return false;
   }
 
-  /// Measurements there may be of the platter, except where they lie higher.
+  /// Measurements there may be of the platter, except in columns with a measured floor.
   void forget_below_floor() {
     const int floor = floor_row();
     for (std::size_t b = 0; b < v_.brick_count(); ++b) {
       const int first = v_.bricks.coords(b)[1] * kBrickSide;
       if (first >= floor) continue;
       if (v_.slot[b] < 0) {
-        if (first + kBrickSide <= floor) v_.uniform[b] = 0.0f;
+        if (first + kBrickSide <= floor && !has_measured_floor(b)) v_.uniform[b] = 0.0f;
         continue;
       }
       for (int j = 0; j < kBrickSide && first + j < floor; ++j) {
         for (int c = 0; c < 64; ++c) {
           const GridCoords at = v_.bricks.coords(b);
-          if (!measured_floor(at[0] * kBrickSide + (c & 7), at[2] * kBrickSide + (c >> 3)))
+          if (!foot_.floors.column(at[0] * kBrickSide + (c & 7), at[2] * kBrickSide + (c >> 3)))
             v_.weight[v_.first_sample(b) + sample_in_brick(c & 7, j, c >> 3)] = 0.0f;
         }
       }
@@ -84,8 +85,9 @@ class HoleClosing {
     const auto& size = samples_.size();
     for (int k = 0; k < size[2]; ++k) {
       for (int i = 0; i < size[0]; ++i) {
-        const bool inside = floors[std::size_t(i) + std::size_t(size[0]) * std::size_t(k)] != 0;
-        if (!inside && !round_.column(i, k)) continue;
+        const bool inside = floors[std::size_t(i) + std::size_t(size[0]) * std::size_t(k)] != 0 ||
+                            foot_.floors.column(i, k);
+        if (!inside && !foot_.round.column(i, k)) continue;
         const std::size_t b = samples_.brick(i, 0, k);
         if (v_.slot[b] < 0 && v_.uniform[b] != 0.0f) continue;
         if (v_.slot[b] < 0) v_.allocate(b, float(v_.truncation_m));
@@ -358,7 +360,7 @@ class HoleClosing {
           if (s < 0) continue;
           const float under = -float(v_.position(i, j, k).y());
           float& own = v_.value[std::size_t(s)];
-          const bool ends = j < floor && !round_.column(i, k) && !measured_floor(i, k);
+          const bool ends = j < floor && !foot_.round.column(i, k) && !foot_.floors.column(i, k);
           own = std::max(ends ? wall : own, under);
         }
       }
@@ -373,7 +375,8 @@ class HoleClosing {
     for (int bz = 0; bz < bricks[2]; ++bz) {
       for (int bx = 0; bx < bricks[0]; ++bx) {
         const std::size_t above = v_.bricks.at({bx, source, bz});
-        const bool outside = v_.slot[above] < 0 && v_.uniform[above] > 0.0f;
+        const bool outside =
+            v_.slot[above] < 0 && v_.uniform[above] > 0.0f && !has_measured_floor(above);
         for (int by = 0; by < layers && by < bricks[1]; ++by) {
           const std::size_t b = v_.bricks.at({bx, by, bz});
           if (v_.slot[b] < 0 && !outside)
@@ -388,10 +391,9 @@ class HoleClosing {
 
   Volume& v_;
   const VolumeScale& scale_;
-  const TaperedFoot& round_;
+  const Foot& foot_;
   const RunContext& context_;
   VolumeSamples samples_;
-  std::vector<std::uint8_t> measured_;     // per column: a floor that was measured
   std::vector<std::uint8_t> has_unknown_;  // per brick with samples
   std::vector<std::size_t> guessed_;       // unobserved bricks without samples
 };
@@ -402,10 +404,10 @@ int floor_layer(const Volume& volume, double floor_m) {
   return std::max(0, int(std::ceil((floor_m - volume.origin_m.y()) / volume.cell_m)));
 }
 
-Result<> close_holes(Volume& volume, const VolumeScale& scale, const TaperedFoot& round,
+Result<> close_holes(Volume& volume, const VolumeScale& scale, const Foot& foot,
                      const RunContext& context) {
   context.begin_phase("closing", 0);
-  return HoleClosing(volume, scale, round, context).run();
+  return HoleClosing(volume, scale, foot, context).run();
 }
 
 }  // namespace turnscan::tsdf

@@ -1,6 +1,7 @@
 #pragma once
 // Quality and coverage of a reconstructed piece, and the notes for its user.
 
+#include <turnscan/reconstruction/tsdf/platter_columns.hpp>
 #include <turnscan/reconstruction/tsdf/volumetric.hpp>
 
 namespace turnscan::tsdf {
@@ -15,7 +16,8 @@ Result<> measure_quality(VolumetricPiece& piece, const VolumetricInput& input,
 
 /// Sets the evidence, and the unmeasured areas: of the base on the platter, and of invented
 /// surface. Needs the confidence.
-void measure_evidence(VolumetricPiece& piece, const VolumeScale& scale);
+void measure_evidence(VolumetricPiece& piece, const VolumeScale& scale,
+                      const MeasuredFloors& floors);
 
 /// Sets the area that sensors observed without a return. Needs the evidence. Fails with kCancelled.
 Result<> measure_no_return(VolumetricPiece& piece, std::span<const views::DepthView> views,

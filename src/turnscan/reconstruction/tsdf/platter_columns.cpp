@@ -113,7 +113,9 @@ class HollowFloorSearch {
     return std::move(floors_);
   }
 
+  /// Empty if there is none.
   std::vector<std::uint8_t> measured(int floor) {
+    if (floor >= samples_.size()[1]) return {};
     look_at(floor);
     std::vector<std::uint8_t> visited(layer_.size(), 0);
     std::vector<double> beside;
@@ -124,19 +126,21 @@ class HollowFloorSearch {
       if (reaches_border(region)) {
         const std::vector<double> heights = heights_below(floor, region);
         beside.insert(beside.end(), heights.begin(), heights.end());
-      } else {
+      } else if (region.size() >= kFewestHeights) {
         hollows.push_back(std::move(region));
       }
     }
     const std::optional<HeightRange> platter = range_of(std::move(beside));
-    if (!platter) return std::move(floors_);
+    if (!platter) return {};
     const double flat_m = std::max(platter->spread_m(), kFinest * v_.cell_m);
+    bool any = false;
     for (const std::vector<std::size_t>& hollow : hollows) {
       const auto range = range_of(heights_below(floor, away_from_walls(hollow)));
       if (!range || range->low_m <= platter->high_m || range->spread_m() > flat_m) continue;
       for (const std::size_t c : hollow) floors_[c] = 1;
+      any = true;
     }
-    return std::move(floors_);
+    return any ? std::move(floors_) : std::vector<std::uint8_t>();
   }
 
  private:
@@ -145,21 +149,19 @@ class HollowFloorSearch {
       for (int i = 0; i < width_; ++i) layer_[at(i, k)] = known(i, layer, k);
   }
 
-  /// The columns of a region that are farther than the truncation distance from all others: nearer
-  /// to a wall the field mixes its depths with those below.
+  /// The columns of a region that are farther than the truncation distance from what is inside:
+  /// nearer to a wall the field mixes its depths with those below.
   std::vector<std::size_t> away_from_walls(const std::vector<std::size_t>& region) const {
-    std::vector<std::uint8_t> within(layer_.size(), 0);
-    for (const std::size_t c : region) within[c] = 1;
     const int reach = int(std::ceil(v_.truncation_m / v_.cell_m));
-    const auto far_from_others = [&](std::size_t c) {
+    const auto is_away = [&](std::size_t c) {
       const int i = int(c % std::size_t(width_)), k = int(c / std::size_t(width_));
       for (int z = std::max(0, k - reach); z <= std::min(depth_ - 1, k + reach); ++z)
         for (int x = std::max(0, i - reach); x <= std::min(width_ - 1, i + reach); ++x)
-          if (std::hypot(x - i, z - k) <= reach && within[at(x, z)] == 0) return false;
+          if (std::hypot(x - i, z - k) <= reach && layer_[at(x, z)] == Known::kInside) return false;
       return true;
     };
     std::vector<std::size_t> out;
-    std::copy_if(region.begin(), region.end(), std::back_inserter(out), far_from_others);
+    std::copy_if(region.begin(), region.end(), std::back_inserter(out), is_away);
     return out;
   }
 
@@ -247,11 +249,27 @@ class HollowFloorSearch {
 
 }  // namespace
 
-TaperedFoot::TaperedFoot(const Volume& volume, int floor)
-    : origin_m_(volume.origin_m), cell_m_(volume.cell_m) {
-  const VolumeSamples samples(volume);
-  width_ = samples.size()[0];
-  depth_ = samples.size()[2];
+PlatterColumns::PlatterColumns(const Volume& volume)
+    : origin_m_(volume.origin_m),
+      cell_m_(volume.cell_m),
+      width_(VolumeSamples(volume).size()[0]),
+      depth_(VolumeSamples(volume).size()[2]) {}
+
+bool PlatterColumns::contains(const Vec3f& p) const {
+  const Vec3d at = (p.cast<double>() - origin_m_) / cell_m_;
+  const int i = int(std::lround(at.x())), k = int(std::lround(at.z()));
+  return i >= 0 && k >= 0 && i < width_ && k < depth_ && column(i, k);
+}
+
+MeasuredFloors::MeasuredFloors(const Volume& volume, int floor) : PlatterColumns(volume) {
+  columns_ = HollowFloorSearch(volume).measured(floor);
+}
+
+bool MeasuredFloors::contains(const Vec3f& p) const {
+  return double(p.y()) > kFinest * cell_m_ && PlatterColumns::contains(p);
+}
+
+TaperedFoot::TaperedFoot(const Volume& volume, int floor) : PlatterColumns(volume) {
   const LowestSurface lowest = LowestSurfaceSearch(volume, floor).run();
   const KdTree tree(lowest.points);
   std::vector<std::uint8_t> round(lowest.points.size());
@@ -276,18 +294,8 @@ TaperedFoot::TaperedFoot(const Volume& volume, int floor)
   }
 }
 
-bool TaperedFoot::contains(const Vec3f& p) const {
-  const Vec3d at = (p.cast<double>() - origin_m_) / cell_m_;
-  const int i = int(std::lround(at.x())), k = int(std::lround(at.z()));
-  return i >= 0 && k >= 0 && i < width_ && k < depth_ && column(i, k);
-}
-
 std::vector<std::uint8_t> hollow_floors(const Volume& volume, int floor) {
   return HollowFloorSearch(volume).unseen(floor);
-}
-
-std::vector<std::uint8_t> measured_floors(const Volume& volume, int floor) {
-  return HollowFloorSearch(volume).measured(floor);
 }
 
 }  // namespace turnscan::tsdf

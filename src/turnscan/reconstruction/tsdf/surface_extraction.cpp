@@ -54,8 +54,11 @@ Result<ExtractedSurface> extract_surface(const Integrator& integrator, const Vol
   const auto close = [&]() -> Result<> {
     TURNSCAN_TRY(smooth(volume, 1, context));
     set_inside(volume, hull);
-    if (scale.floor_m) out.round = TaperedFoot(volume, floor_layer(volume, *scale.floor_m));
-    return close_holes(volume, scale, out.round, context);
+    if (scale.floor_m) {
+      const int floor = floor_layer(volume, *scale.floor_m);
+      out.foot = {TaperedFoot(volume, floor), MeasuredFloors(volume, floor)};
+    }
+    return close_holes(volume, scale, out.foot, context);
   };
   TURNSCAN_TRY(timed(times, "closing", close));
   TURNSCAN_TRY(context.check());

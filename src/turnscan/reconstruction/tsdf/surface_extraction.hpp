@@ -27,7 +27,7 @@ struct ExtractedSurface {
   TriangleMesh mesh;  ///< closed, 2-manifold, outward; may be empty
   ClusterScale grid;  ///< grid on which it was marched
   UnseenSpace unseen;
-  TaperedFoot round;
+  Foot foot;
 };
 
 /// The zero set of the integrated data in and around the box, after forget_doubtful_surface(),

@@ -10,7 +10,7 @@
 
 namespace turnscan::tsdf {
 
-class TaperedFoot;
+struct Foot;
 
 /// A platter on which the object lay in one of several passes, in the object's frame.
 struct Platter {
@@ -76,7 +76,7 @@ Result<> smooth(Volume& volume, int rounds, const RunContext& context);
 /// 0, except where the bottom is round. With several passes, only what none of them observed ends
 /// on a platter, and flat. Enclosed free spaces that do not reach the outside are filled. Fails
 /// with kCancelled, and then leaves the volume partly processed.
-Result<> close_holes(Volume& volume, const VolumeScale& scale, const TaperedFoot& round,
+Result<> close_holes(Volume& volume, const VolumeScale& scale, const Foot& foot,
                      const RunContext& context);
 
 /// The first layer of samples that is used above a platter.

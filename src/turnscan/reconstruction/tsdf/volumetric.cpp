@@ -59,7 +59,7 @@ class VolumetricReconstruction {
       TURNSCAN_TRY(refine(std::move(object), surface));
     for (VolumetricPiece& piece : out_.pieces) {
       TURNSCAN_TRY(color(piece));
-      TURNSCAN_TRY(measure(piece));
+      TURNSCAN_TRY(measure(piece, surface.foot.floors));
     }
     leave_out_unmeasured();
     if (out_.pieces.empty())
@@ -100,11 +100,11 @@ class VolumetricReconstruction {
                       }));
       const double share = filter_share(even);
       TURNSCAN_ASSIGN(MeshFit fitted, timed("fit", [&] {
-                        return fit_mesh(even, input_.views, fit_scale(), context_);
+                        return fit_mesh(even, input_.views, fit_scale(surface), context_);
                       }));
       if (options_.sharpen && share > 0.0)
         TURNSCAN_TRY(timed("sharpen", [&] {
-          return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(), context_);
+          return sharpen_mesh(fitted.mesh, input_.views, share, fit_scale(surface), context_);
         }));
       if (options_.fit)
         TURNSCAN_TRY(timed("creases", [&] {
@@ -173,7 +173,7 @@ class VolumetricReconstruction {
     closing.stands = [&](const Vec3f& p) {
       const VolumeScale& volume = scale_.volume;
       if (volume.floor_m)
-        return double(p.y()) < *volume.floor_m && (p.y() < 0.0f || !surface.round.contains(p));
+        return double(p.y()) < *volume.floor_m && (p.y() < 0.0f || !surface.foot.round.contains(p));
       return below_platters(volume.platters, p.cast<double>()) > -kPlatterCells * volume.cell_m;
     };
     return mesh_refinement::close_as_plate(fitted.mesh, fitted.support, closing, context_);
@@ -189,10 +189,10 @@ class VolumetricReconstruction {
   }
 
   /// Sets quality, unmeasured areas, and the number of points.
-  Result<> measure(VolumetricPiece& piece) {
+  Result<> measure(VolumetricPiece& piece, const MeasuredFloors& floors) {
     measure_confidence(piece);
     const auto quality = [&]() -> Result<> {
-      measure_evidence(piece, scale_.volume);
+      measure_evidence(piece, scale_.volume, floors);
       if (input_.measured_only) return {};
       if (scale_.volume.floor_m)
         piece.neck = quality::narrowest_neck(
@@ -211,7 +211,7 @@ class VolumetricReconstruction {
     return {};
   }
 
-  MeshFitScale fit_scale() const {
+  MeshFitScale fit_scale(const ExtractedSurface& surface) const {
     const VolumeScale& volume = scale_.volume;
     MeshFitScale scale;
     scale.noise_m = input_.noise_m;
@@ -223,6 +223,8 @@ class VolumetricReconstruction {
     if (!(filter_share_ > 0.0)) scale.edge_weight = 1.0f;
     scale.iterations = options_.fit ? options_.fit_iterations : 0;
     if (volume.floor_m) scale.floor_height_m = *volume.floor_m;
+    if (!surface.foot.floors.none())
+      scale.measured_below = [&surface](const Vec3f& p) { return surface.foot.floors.contains(p); };
     return scale;
   }
 

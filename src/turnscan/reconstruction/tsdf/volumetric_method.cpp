@@ -331,7 +331,7 @@ Result<TriangleMesh> VolumetricMethod::preview(const RunContext& context) const 
   if (volume.brick_count() == 0) return TriangleMesh();
   scale.cell_m = volume.cell_m;
   scale.truncation_m = volume.truncation_m;
-  TURNSCAN_TRY(close_holes(volume, scale, TaperedFoot(), context));
+  TURNSCAN_TRY(close_holes(volume, scale, Foot(), context));
   TURNSCAN_ASSIGN(const BrickGrid grid, to_grid(volume, std::size_t(1) << 30));
   return isosurface(grid, MarchingCells::kTetrahedra, context);
 }
