@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <turnscan/reconstruction/tsdf/piece_measures.hpp>
 #include <turnscan/reconstruction/tsdf/platter_columns.hpp>
 
 #include "tests/reconstruction/tsdf/volume_on_platter.hpp"
@@ -116,6 +117,26 @@ TEST(MeasuredFloors, AreNotInARingWithALedge) {
 TEST(MeasuredFloors, AreNotWhereABoreOnlyLooksShallow) {
   const auto bore = [](const Vec3d& p) { return 0.001 + 0.2 * std::hypot(p.x(), p.z()); };
   EXPECT_EQ(floor_columns(measured_box(bore, 0.0)), 0u);
+}
+
+/// Of a flat triangle in the middle of a box, at some height.
+Evidence evidence_at(float y_m, const MeasuredFloors& floors) {
+  VolumetricPiece piece;
+  piece.mesh.vertices = {{0.0f, y_m, 0.0f}, {0.0f, y_m, 0.003f}, {0.003f, y_m, 0.0f}};
+  piece.mesh.triangles = {{0, 1, 2}};
+  piece.confidence = {1.0f, 1.0f, 1.0f};
+  VolumeScale scale;
+  scale.cell_m = 0.001;
+  scale.floor_m = 0.004;
+  measure_evidence(piece, scale, floors);
+  return piece.evidence[0];
+}
+
+TEST(MeasuredFloors, AreMeasuredAndNoBase) {
+  const MeasuredFloors floors(measured_box(0.002, 0.0), kFloor);
+  EXPECT_EQ(evidence_at(0.002f, floors), Evidence::kMeasured);
+  EXPECT_EQ(evidence_at(0.0f, floors), Evidence::kBase);
+  EXPECT_EQ(evidence_at(0.002f, MeasuredFloors()), Evidence::kBase);
 }
 
 TEST(MeasuredFloors, StayWhenHolesAreClosedAndStandOnThePlatter) {
