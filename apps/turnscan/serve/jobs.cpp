@@ -192,15 +192,9 @@ void Jobs::changed() {
 
 Result<Jobs::Made> Jobs::scan(ScanRequest request, Job& job) {
   ScanHooks hooks;
-  hooks.progress = [&](const CaptureProgress& progress) {
-    take_progress(job, progress);
-    surface_.take(progress.motion);
-  };
+  hooks.progress = [&](const CaptureProgress& progress) { take_progress(job, progress); };
   hooks.begin = [this](const CaptureSetup& setup) { surface_.begin(setup); };
-  hooks.frame = [this](const Frame& frame) {
-    take_frame(frame);
-    surface_.add(frame);
-  };
+  hooks.frame = [this](const Frame& frame) { take_frame(frame); };
   hooks.recorded = [this] { surface_.end(); };
   hooks.another_side = [&](const std::string& advice, std::uint32_t pass) {
     return ask(job, advice, pass);
@@ -220,13 +214,9 @@ Result<Jobs::Made> Jobs::record(CaptureSetup setup, const std::string& folder, J
   TURNSCAN_ASSIGN(std::optional<Motor> motor, setup.open_motor(job.context));
   CaptureHooks hooks;
   hooks.motor = motor ? &*motor : nullptr;
-  hooks.progress = [&](const CaptureProgress& progress) {
-    take_progress(job, progress);
-    surface_.take(progress.motion);
-  };
+  hooks.progress = [&](const CaptureProgress& progress) { take_progress(job, progress); };
   hooks.frame = [this](const Frame& frame) -> Result<> {
     take_frame(frame);
-    surface_.add(frame);
     return {};
   };
   TURNSCAN_TRY(source->start());
@@ -301,9 +291,11 @@ void Jobs::take_progress(Job& job, const CaptureProgress& progress) {
     changed();
   }
   if (steps > 0) job.context.advance(steps);
+  surface_.take(progress.motion);
 }
 
 void Jobs::take_frame(const Frame& frame) {
+  surface_.add(frame);
   const auto now = std::chrono::steady_clock::now();
   const std::lock_guard lock(mutex_);
   if (frame.info.sensor != 0 || frame.depth.empty() || now - frame_time_ < kBetweenFrames) return;

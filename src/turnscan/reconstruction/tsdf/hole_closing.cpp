@@ -63,7 +63,8 @@ class HoleClosing {
   void forget_below_floor() {
     const int floor = floor_row();
     for (std::size_t b = 0; b < v_.brick_count(); ++b) {
-      const int first = v_.bricks.coords(b)[1] * kBrickSide;
+      const GridCoords at = v_.bricks.coords(b);
+      const int first = at[1] * kBrickSide;
       if (first >= floor) continue;
       if (v_.slot[b] < 0) {
         if (first + kBrickSide <= floor && !has_measured_floor(b)) v_.uniform[b] = 0.0f;
@@ -71,7 +72,6 @@ class HoleClosing {
       }
       for (int j = 0; j < kBrickSide && first + j < floor; ++j) {
         for (int c = 0; c < 64; ++c) {
-          const GridCoords at = v_.bricks.coords(b);
           if (!foot_.floors.column(at[0] * kBrickSide + (c & 7), at[2] * kBrickSide + (c >> 3)))
             v_.weight[v_.first_sample(b) + sample_in_brick(c & 7, j, c >> 3)] = 0.0f;
         }

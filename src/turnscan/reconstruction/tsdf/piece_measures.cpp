@@ -56,9 +56,9 @@ void measure_evidence(VolumetricPiece& piece, const VolumeScale& scale,
     const double area = triangle_area(piece.mesh, i);
     const float low = std::min({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
     const float high = std::max({p[t[0]].y(), p[t[1]].y(), p[t[2]].y()});
-    const bool measured =
-        std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return floors.contains(p[v]); });
-    if (high < base && !measured && high - low < 0.1f * float(scale.cell_m)) {
+    const auto on_floor = [&](std::uint32_t v) { return floors.contains(p[v]); };
+    if (high < base && high - low < 0.1f * float(scale.cell_m) &&
+        !std::all_of(t.begin(), t.end(), on_floor)) {
       piece.evidence[i] = Evidence::kBase;
       piece.base_area_m2 += area;
     } else if (std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
